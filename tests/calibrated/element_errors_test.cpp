@@ -82,8 +82,8 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("element errors: nulls in elevation fill") {
-        const auto lowest = [](const ElevationPattern& pattern) {
-            return *std::min_element(pattern.power.begin() + 512, pattern.power.begin() + 1536);
+        const auto lowest = [](const SineTable& pattern) {
+            return *std::min_element(pattern.values.begin() + 512, pattern.values.begin() + 1536);
         };
         const double floor = mean_side_lobe(line_array(radians(20.0), -13.3), errors);
         CHECK(lowest(elevation_pattern(radians(20.0), -13.3)) < 1e-5F);

@@ -3,7 +3,7 @@
 #include "input/mission/mission.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/target_strength.h"
-#include "simulate/calibrated/volume_strengths.h"
+#include "simulate/calibrated/water_column.h"
 #include "support/test.h"
 
 using namespace sonarsim;

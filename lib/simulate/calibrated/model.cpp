@@ -14,7 +14,6 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/expected_echo.h"
 #include "simulate/calibrated/levels.h"
-#include "simulate/calibrated/volume_strengths.h"
 #include "simulate/calibrated/water.h"
 
 namespace sonarsim {

@@ -101,41 +101,38 @@ class BackscatterTable {
 
 }  // namespace
 
-ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
-                                   const ElementsConfig& elements, double floor_db) {
-    ElevationPattern out;
-    if (width_rad <= 0.0) return out;
+SineTable elevation_pattern(double width_rad, double side_lobe_db, const ElementsConfig& elements,
+                            double floor_db) {
+    if (width_rad <= 0.0) return {};
     // The mean over instruments: one draw of the errors of so few elements would move the nulls.
     const LineArray array = line_array(width_rad, side_lobe_db);
     const double floor = mean_side_lobe(array, elements) + power_of_db(floor_db);
-    for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
-        const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
+    return sine_table(-1.0, 1.0, [&](double sine) {
         const double amplitude = line_pattern(array, sine);
-        out.power.push_back(static_cast<float>(amplitude * amplitude + floor));
-    }
-    return out;
+        return amplitude * amplitude + floor;
+    });
 }
 
-float ElevationPattern::at(float sine) const {
-    if (power.empty()) return 1.0F;
-    const float at = std::clamp(0.5F * steps * (sine + 1.0F), 0.0F, 1.0F * steps);
-    const float whole = std::floor(at);
-    const float* const entry = power.data() + static_cast<int>(whole);
-    return std::fma(at - whole, entry[1] - entry[0], entry[0]);
+float SineTable::at(float sine) const {
+    if (values.empty()) return 1.0F;
+    // In this order of arguments NaN becomes 0.
+    const float where = std::min(1.0F * steps, std::max(0.0F, (sine - from) * per_unit));
+    const float whole = std::floor(where);
+    const float* const entry = values.data() + static_cast<int>(whole);
+    return std::fma(where - whole, entry[1] - entry[0], entry[0]);
 }
 
-void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
+void weigh_by_elevation(const SineTable& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes) {
-    if (pattern.power.empty()) return;
-    const float* const table = pattern.power.data();
+    if (pattern.values.empty()) return;
+    const float* const table = pattern.values.data();
     // Interpolates between the entries at a sine within [-1, 1].
-    const Floats8 half = 0.5F * ElevationPattern::steps;
+    const Floats8 half = 0.5F * SineTable::steps;
     for (int k = 0; k < count; k += lanes) {
         const Floats8 sine =
             Floats8::load(pieces.z.data() + k) / Floats8::load(echoes.range_m.data() + k);
         // In this order of arguments NaN becomes 0.
-        const Floats8 at =
-            least(greatest(fma(half, sine, half), 0.0F), 1.0F * ElevationPattern::steps);
+        const Floats8 at = least(greatest(fma(half, sine, half), 0.0F), 1.0F * SineTable::steps);
         const Floats8 whole = floor(at);
         const auto [here, next] = table_entries(table, to_ints(whole));
         const Floats8 power = fma(at - whole, next - here, here);

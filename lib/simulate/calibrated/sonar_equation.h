@@ -12,19 +12,32 @@
 
 namespace sonarsim {
 
-/// The power of two-way elevation patterns by the sine of the elevation, -1 to 1.
-struct ElevationPattern {
+/// A function of a sine, as a table.
+struct SineTable {
     static constexpr int steps = 2048;
-    std::vector<float> power;  ///< steps + 2; empty: 1 all over
+    float from = 0.0F;          ///< the sine of the first entry
+    float per_unit = 0.0F;      ///< entries per unit of sine
+    std::vector<float> values;  ///< steps + 2; empty: 1 all over
 
     float at(float sine) const;
 };
 
-/// The two-way pattern is that of a line array of half-power width `width_rad`, as if only the
-/// transmitter were directed in elevation; 0: omnidirectional. `floor_db` is added to its power.
-ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
-                                   const ElementsConfig& elements = {},
-                                   double floor_db = no_lobe_floor_db);
+template <class Function>
+SineTable sine_table(double from, double to, const Function& value) {
+    SineTable out{.from = static_cast<float>(from),
+                  .per_unit = static_cast<float>(SineTable::steps / (to - from)),
+                  .values = {}};
+    for (int k = 0; k <= SineTable::steps + 1; ++k)
+        out.values.push_back(static_cast<float>(value(from + (to - from) * k / SineTable::steps)));
+    return out;
+}
+
+/// The power of a two-way pattern by the sine of the elevation: that of a line array of half-power
+/// width `width_rad`, as if only the transmitter were directed in elevation; 0: omnidirectional.
+/// `floor_db` is added to its power.
+SineTable elevation_pattern(double width_rad, double side_lobe_db,
+                            const ElementsConfig& elements = {},
+                            double floor_db = no_lobe_floor_db);
 
 /// The echo of a piece of surface, and its range bin:
 ///
@@ -37,7 +50,7 @@ struct SonarEquation {
     int rows = 0;
     float loss_per_m = 0.0F;   ///< two-way absorption: power falls as e^-(loss r)
     float ln_headroom = 0.0F;  ///< powers are e^ln_headroom times their ratio to the source level
-    ElevationPattern elevation;
+    SineTable elevation;
 };
 
 /// The echoes of a block of pieces.
@@ -61,7 +74,7 @@ struct Amplitudes {
 };
 
 /// Multiplies the powers of the first `count` pieces by the pattern towards them, at `range_m`.
-void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
+void weigh_by_elevation(const SineTable& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes);
 
 /// Fills `echoes` except for their columns. Echoes outside the range have power 0; returns their

@@ -37,7 +37,7 @@ void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, flo
 }
 
 /// Finds the power that is transmitted towards the ends.
-void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
+void direct_ends(Ends& ends, int count, const SineTable& pattern) {
     ends.places.count = count;
     ends.echoes.count = count;
     ends.echoes.power.fill(1.0F);

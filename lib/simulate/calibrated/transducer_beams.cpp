@@ -15,18 +15,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int table_steps = 2048;
 constexpr float lobe_ends = 0.01F;  // two-way power, a share of that on the axis
-
-template <class Function>
-SineTable sine_table(double from, double to, Function value) {
-    SineTable out{.from = static_cast<float>(from),
-                  .per_unit = static_cast<float>(table_steps / (to - from)),
-                  .values = {}};
-    for (int k = 0; k <= table_steps + 1; ++k)
-        out.values.push_back(static_cast<float>(value(from + (to - from) * k / table_steps)));
-    return out;
-}
 
 /// The two-way complex amplitudes of one beam for every piece.
 void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
@@ -68,18 +57,8 @@ void add_between_bins(float* column, float row, float re, float im) {
 
 }  // namespace
 
-float SineTable::at(float sine) const {
-    const float most = static_cast<float>(values.size() - 2);
-    // In this order of arguments NaN becomes 0.
-    const float where = std::min(most, std::max(0.0F, (sine - from) * per_unit));
-    const float whole = std::floor(where);
-    const float* const entry = values.data() + static_cast<int>(whole);
-    return std::fma(where - whole, entry[1] - entry[0], entry[0]);
-}
-
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                                 std::span<const double> noise,
-                                 const std::vector<float>& taps) {
+                                 std::span<const double> noise, const std::vector<float>& taps) {
     TransducerBeams out;
     out.noise_taps = taps;
     out.aperture = beam.aperture;

@@ -13,15 +13,6 @@
 
 namespace sonarsim {
 
-/// A function of a sine, as a table.
-struct SineTable {
-    float from = 0.0F;      ///< the sine of the first entry
-    float per_unit = 0.0F;  ///< entries per unit of sine
-    std::vector<float> values;
-
-    float at(float sine) const;
-};
-
 /// Transducers that both transmit and receive, and form no beams: the two sides of a side-scan
 /// sonar, the disc of an echosounder, the head of a scanning sonar. A side receives the echoes of
 /// all surface, weighted by its pattern.

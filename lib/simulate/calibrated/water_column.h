@@ -12,6 +12,28 @@
 
 namespace sonarsim {
 
+/// The water of an instrument: `auto` values become those of the instrument's usual water.
+WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument);
+
+/// The volume scattering cross-section of the water without its layers, m^2 per m^3: plankton and
+/// bubbles, whose scattering does not depend on frequency, and suspended particles. 0 without any.
+/// `water.content` is not `auto`.
+///
+/// The levels of `content` are chosen: they divide the range of -90 dB (clear) to -55 dB (dense
+/// clouds) that is common for the sea. So are its suspended particles: 0.5 mg/l are usual off the
+/// coast, 5 to 50 mg/l near it.
+double volume_strength(const WaterConfig& water, double frequency_hz);
+
+/// The backscattering cross-section of particles of quartz, m^2 per m^3 of water:
+///
+///     s_v = 3 M f^2 / (16 pi rho a)
+///
+/// M is their mass per volume of water, rho their density, a their radius: M / (4/3 pi rho a^3)
+/// particles of a^2 f^2 / 4 each. The form function f of sand is that of P. D. Thorne and R. Meral,
+/// "Formulations for the scattering properties of suspended sandy sediments", Cont. Shelf Res. 28
+/// (2008), 309: 1.25 (k a)^2 of particles much smaller than a wavelength, 1.1 of large ones.
+double suspended_strength(double mg_per_l, double diameter_um, double wavenumber);
+
 /// Directions of equal solid angle, unit, sensor frame.
 struct EqualDirections {
     std::vector<Eigen::Vector3f> all;
