@@ -12,13 +12,13 @@ constexpr double finest_goal = 0.003;
 
 // Thin things need more columns, in proportion, up to this many times as many.
 constexpr float by_thinness = 1.3F;
-constexpr float most_by_thinness = 4.0F;
+constexpr float max_by_thinness = 4.0F;
 
 // Columns of a side where energies add: the beam receives most from its middle.
 constexpr float side_columns = 13.0F;
 
-// Where energies add, the beam pattern at the middle of a sample holds for all of it: samples along
-// a column of a fan, a cone and a sector of a side.
+// Energies are weighed by the beam pattern at the middle of a sample. So a column of a fan or a cone
+// has at least so many samples along the view, and a side one for each of these angles.
 constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
@@ -48,7 +48,7 @@ StripRule strip_rule(const View& view) {
 int column_parts(const StripRule& rule, float thinness) {
     constexpr float rounding = 1e-3F;
     return static_cast<int>(
-        rule.columns * std::min(1.0F + by_thinness * thinness, most_by_thinness) + rounding);
+        rule.columns * std::min(1.0F + by_thinness * thinness, max_by_thinness) + rounding);
 }
 
 }  // namespace sonarsim
