@@ -151,12 +151,15 @@ void add_powers(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
 }
 
 void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
-                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid,
+                    EchoGrid* mean) {
     const GridPlaces places(echoes, grid);
     float* const first = grid.column(0);
     const std::size_t stride = grid.stride();
     for (int k = 0; k < echoes.count; ++k)
         places.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
+    for (int k = 0; mean && k < echoes.count; ++k)
+        places.add_shared(k, alternating(echoes.power[k], 0.0F), mean->column(0), stride);
 }
 
 void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,

@@ -41,9 +41,9 @@ std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, Po
 /// Adds powers to the real parts of the grid, shared between the four cells around each echo.
 void add_powers(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
-/// The same for complex amplitudes.
+/// The same for complex amplitudes. `mean`: a grid that receives the powers; null: none.
 void add_amplitudes(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
-                    const Amplitudes& amplitudes, EchoGrid& grid);
+                    const Amplitudes& amplitudes, EchoGrid& grid, EchoGrid* mean = nullptr);
 
 /// Adds the powers of echoes that return from another place than they were sent to. The columns and
 /// powers are those of `back`.

@@ -57,21 +57,19 @@ std::size_t EchoGrid::occupied() const {
     return cells;
 }
 
-std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
+void EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t margin = 2 * static_cast<std::size_t>(taps.reach);
     // Whole cache lines are written; a column has room for them.
     const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
     std::vector<float> padded(lines * floats_per_line + 2 * margin);
     float* const middle = padded.data() + margin;
-    std::size_t occupied = 0;
     for (int c = 0; c < columns_; ++c) {
         float* const values = column(c);
         std::copy_n(values, length, middle);
         int echoes = 0;
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line)
             echoes += count_occupied(middle + i);
-        occupied += echoes;
         if (echoes == 0) continue;
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {
             Floats8 one = 0.0F;
@@ -86,7 +84,6 @@ std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
             other.store(values + i + lanes);
         }
     }
-    return occupied;
 }
 
 }  // namespace sonarsim

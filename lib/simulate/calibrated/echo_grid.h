@@ -34,8 +34,8 @@ class EchoGrid {
     void add(const EchoGrid& more);
     /// The number of cells that hold an echo.
     std::size_t occupied() const;
-    /// Convolves every column with the pulse. Returns the number of cells that held an echo before.
-    std::size_t convolve_pulse(const RangeTaps& taps);
+    /// Convolves every column with the pulse.
+    void convolve_pulse(const RangeTaps& taps);
 
   private:
     // One bin before the first takes echoes between the two; seven more fill the cache line.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -23,19 +24,12 @@ namespace {
 // For speckle that is drawn for each ping. The error of the tank's expected image is then 1.8 %.
 constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
-// With pieces of a bin and half a beam width the mean for ranks is within 1 % (L1) of the exact one
-// on seafloor_sidescan_calibrated and detection.
-PointLimits limits_of(const PointLimits& exact, MeanFor use) {
-    if (use == MeanFor::image) return exact;
-    return {2.0F * exact.depth_m, exact.sine, 5.0F * exact.elevation_sine};
-}
-
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
 template <class Beams>
 class ImageFormer {
   public:
     ImageFormer(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
-                const FormContext& context, MeanFor use, Ping& ping)
+                const FormContext& context, Ping& ping)
         : model_(model),
           beams_(beams),
           context_(context),
@@ -45,13 +39,14 @@ class ImageFormer {
                  traced.T_world_sensor.translation - context.scene.origin},
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           view_(widened_view(context.view, model.info.guard_beams)),
-          limits_(limits_of(model.limits, use)),
           strengths_(traced, context.scene, view_.shape),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
     /// Fills the image. Numbers in the comments are sections of docs/calibrated.md.
-    void form(const TracedPing& traced) {
+    void form(const TracedPing& traced, std::span<float> mean_image) {
+        if (!mean_image.empty())
+            mean_ = std::make_unique<EchoGrid>(model_.equation.rows, columns_of(beams_));
         EchoGrid grid(model_.equation.rows, columns_of(beams_));
         const bool expected_power = speckle_ == SpeckleMode::none;
         std::vector<Sample> targets;
@@ -69,40 +64,43 @@ class ImageFormer {
         if (context_.terms.multipath) add_multipath(traced, grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
+        if (mean_ && speckle_ != SpeckleMode::scene) *mean_ = grid;
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && !expected_power) {
             add_targets(targets, grid);
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
+            if (mean_) {
+                const PingCounts counted = ping_.counts;
+                add_pieces(targets, model_.limits, *mean_);
+                add_particle_powers(model_, beams_, traced.particles, ping_.counts, *mean_);
+                ping_.counts = counted;
+            }
         }
 
         // 5. The water's volume. Bins with its echo alone count as empty.
-        const bool has_water = context_.terms.direct && model_.water;
-        const std::size_t visible_bins = has_water ? grid.occupied() : 0;
-        if (has_water) {
-            add_water(model_, traced, context_,
-                      expected_power ? PowerForm::power : PowerForm::amplitude, speckle_gain_,
-                      grid);
-        }
-
-        // 3. Pulse.
-        const std::size_t echo_bins =
-            grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
-        add_reverberation(model_.reverberation,
-                          expected_power ? PowerForm::power : PowerForm::amplitude,
-                          context_.draws.of(stream_named("reverberation")), grid);
-        // The grid has guard beams, too.
-        const View& view = context_.view;
-        const double bins_per_cell =
-            static_cast<double>(view.range_bins) / grid.rows() * view.beams / grid.columns();
+        const double bins_per_cell =  // the grid has guard beams, too
+            1.0 * context_.view.range_bins / grid.rows() * context_.view.beams / grid.columns();
         ping_.counts.occupied_bins = static_cast<std::uint64_t>(
-            std::ceil(bins_per_cell * static_cast<double>(has_water ? visible_bins : echo_bins)));
-        // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, expected_power, context_.terms.random > 1,
-                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
+            std::ceil(bins_per_cell * static_cast<double>(grid.occupied())));
+        const PowerForm form = expected_power ? PowerForm::power : PowerForm::amplitude;
+        if (context_.terms.direct && model_.water)
+            add_water(model_, traced, context_, form, speckle_gain_, grid, mean_.get());
+        receive(form, context_.terms.random > 1, ping_.intensity, grid);
+        if (mean_) receive(PowerForm::power, false, mean_image, *mean_);
     }
 
   private:
+    /// 3. Pulse, beams; 4. the receiver's noise and its gain.
+    void receive(PowerForm form, bool noisy, std::span<float> image, EchoGrid& grid) const {
+        const bool powers = form == PowerForm::power;
+        grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
+        add_reverberation(model_.reverberation, form,
+                          context_.draws.of(stream_named("reverberation")), grid);
+        beamform(beams_, grid, powers, noisy, context_.draws.of(Stream::receiver_noise),
+                 model_.row_gain, image);
+    }
+
     /// Without what comes from below sea beds.
     const Scattering& surface_scattering() const {
         return model_.sediment ? model_.sediment->surface : model_.scattering;
@@ -132,6 +130,7 @@ class ImageFormer {
         if (speckle_ != SpeckleMode::scene) return add(grid);
         EchoGrid powers(grid.rows(), grid.columns());
         add(powers);
+        if (mean_) mean_->add(powers);
         draw_speckle(powers, speckle_gain_, key);
         grid.add(powers);
     }
@@ -142,7 +141,7 @@ class ImageFormer {
         if (surface.empty()) return;
         const PhiloxKey key = context_.draws.of(stream_named("behind walls"));
         add_drawn_by_ping(key, grid,
-                          [&](EchoGrid& powers) { add_pieces(surface, limits_, powers); });
+                          [&](EchoGrid& powers) { add_pieces(surface, model_.limits, powers); });
     }
 
     /// Adds the echo of the water's surface, whose waves move from ping to ping. Its footprints are
@@ -152,7 +151,7 @@ class ImageFormer {
         const PhiloxKey key = context_.draws.of(stream_named("water surface"));
         add_drawn_by_ping(key, grid, [&](EchoGrid& powers) {
             PatchBlock block;
-            subdivide(surface, {}, limits_, block, [&](const PatchBlock& patches) {
+            subdivide(surface, {}, model_.limits, block, [&](const PatchBlock& patches) {
                 find(patches, model_.scattering);
                 add_powers(beams_, patches, echoes_, powers);
             });
@@ -172,19 +171,18 @@ class ImageFormer {
         EchoGrid energy(grid.rows(), grid.columns());
         EchoGrid lagged(grid.rows(), grid.columns());
         PatchBlock block;
-        subdivide(std::span<const Sample>(beds), view_.shape, limits_, block,
+        subdivide(std::span<const Sample>(beds), view_.shape, model_.limits, block,
                   [&](const PatchBlock& patches) {
                       apply_sonar_equation(patches, sediment.volume, model_.equation, echoes_);
-                      strengths_.apply(beds, patches, &limits_, echoes_.power);
+                      strengths_.apply(beds, patches, &model_.limits, echoes_.power);
                       find_columns(beams_, patches, echoes_);
                       add_powers(beams_, patches, echoes_, energy);
                       weigh_by_lag(sediment, patches, model_.equation.bin_m, echoes_);
                       add_powers(beams_, patches, echoes_, lagged);
                   });
         spread_below(lagged, energy);
-        if (speckle_ == SpeckleMode::scene)
-            draw_speckle(energy, speckle_gain_, context_.draws.of(stream_named("sediment")));
-        grid.add(energy);
+        add_drawn_by_ping(context_.draws.of(stream_named("sediment")), grid,
+                          [&](EchoGrid& powers) { powers.add(energy); });
     }
 
     /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
@@ -203,16 +201,16 @@ class ImageFormer {
         if (speckle_ == SpeckleMode::scene) {
             Scatterers block;
             Amplitudes amplitudes;
-            find_scatterers(surface, view_.shape, model_.cells, sonar_, scene_draws_, block,
-                            [&](const Scatterers& found) {
-                                find(surface, found.pieces, nullptr);
-                                draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_,
-                                                amplitudes);
-                                add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid);
-                            });
+            find_scatterers(
+                surface, view_.shape, model_.cells, sonar_, scene_draws_, block,
+                [&](const Scatterers& found) {
+                    find(surface, found.pieces, nullptr);
+                    draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_, amplitudes);
+                    add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid, mean_.get());
+                });
             return;
         }
-        PointLimits limits = limits_;
+        PointLimits limits = model_.limits;
         if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
         add_pieces(surface, limits, grid);
     }
@@ -255,7 +253,7 @@ class ImageFormer {
         add_drawn_by_ping(ping_draws_, grid, [&](EchoGrid& powers) {
             std::uint64_t outside_beams = 0;
             const std::uint64_t outside_range = find_specular_echoes(
-                paths, model_.scattering.materials, model_.equation, limits_,
+                paths, model_.scattering.materials, model_.equation, model_.limits,
                 [&](const SpecularBlock& block) {
                     outside_beams += find_columns(beams_, block.places, block.echoes);
                     add_bistatic_powers(beams_, block.out, {block.places, block.echoes}, powers);
@@ -271,20 +269,20 @@ class ImageFormer {
     SonarInScene sonar_;
     SpeckleMode speckle_;
     View view_;  ///< with the guard beams
-    PointLimits limits_;
     PieceStrengths strengths_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
+    std::unique_ptr<EchoGrid> mean_;  ///< the mean powers of the grid, if they are needed
     Ping& ping_;
 };
 
 }  // namespace
 
 void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               MeanFor use, Ping& ping) {
+               std::span<float> mean, Ping& ping) {
     std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            ImageFormer<Beams>(model, of_model, traced, context, use, ping).form(traced);
+            ImageFormer<Beams>(model, of_model, traced, context, ping).form(traced, mean);
         },
         model.beams);
 }

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,23 +16,6 @@ namespace sonarsim {
 
 namespace {
 
-/// Replaces one sample of a bin by the one that is delivered of several. The mean of its draws is
-/// the image without speckle and the mean noise.
-void deliver(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-             Ping& ping) {
-    Ping mean = ping;
-    std::ranges::fill(mean.intensity, 0.0F);
-    FormContext expected = context;
-    expected.terms.random = 0;
-    form_look(model, traced, expected, MeanFor::ranks, mean);
-    const auto beams = static_cast<std::size_t>(context.view.beams);
-    if (context.terms.random > 1) {
-        for (std::size_t k = 0; k < mean.intensity.size(); ++k)
-            mean.intensity[k] += model.noise_values[k / beams];
-    }
-    model.detected.apply(mean.intensity, ping.intensity);
-}
-
 std::optional<double> wind_over(const Scene& scene) {
     return scene.water_surface ? scene.water_surface->wind_m_s : std::nullopt;
 }
@@ -46,8 +27,9 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         return prepared_for(context.scene)->form(traced, context, ping);
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
-    form_look(*this, traced, context, MeanFor::image, ping);
-    if (detected.changes() && context.terms.random > 0) deliver(*this, traced, context, ping);
+    std::vector<float> mean;
+    if (detected.changes() && context.terms.random > 0) mean.resize(ping.intensity.size());
+    form_look(*this, traced, context, mean, ping);
     const ImageRows rows{.range_min_m = context.view.range_min_m,
                          .bin_m = context.view.bin_m(),
                          .bin_s = 2.0 * context.view.bin_m() / sound_speed_m_s,
@@ -55,6 +37,12 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
                          .rows = context.view.range_bins,
                          .beams = context.view.beams,
                          .noise = noise_values};
+    if (!mean.empty()) {
+        // The mean is that of the draws, for the same places of the scatterers.
+        if (context.terms.random > 1)
+            add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);
+        detected.apply(mean, ping.intensity);
+    }
     // Faults belong to the receiver's noise, the last of the random terms.
     if (context.terms.random > 1 && has_faults(receiver))
         add_faults(receiver, rows, context.draws, ping.intensity);

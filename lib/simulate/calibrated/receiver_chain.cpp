@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/elementary.h"
 #include "core/normal_pair.h"
@@ -13,34 +14,31 @@ namespace sonarsim {
 
 namespace {
 
-void add_to_row(float value, int row, const ImageRows& rows, std::span<float> image) {
-    float* const first = image.data() + static_cast<std::size_t>(row) * rows.beams;
-    for (int beam = 0; beam < rows.beams; ++beam)
-        first[beam] = std::min(first[beam] + value, max_value);
-}
-
 /// The ringing falls by 10 dB in each `ring_down_m`.
 void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image) {
+    std::vector<float> ringing;
     for (int row = 0; row < rows.rows; ++row) {
         const double range_m = rows.range_min_m + (row + 0.5) * rows.bin_m;
         const double level_db = receiver.ring_down_db - 10.0 * range_m / receiver.ring_down_m;
-        if (level_db < -60.0) return;  // a millionth of the noise
-        const auto level = static_cast<float>(power_of_db(level_db));
-        add_to_row(rows.noise[row] * level, row, rows, image);
+        if (level_db < -60.0) break;  // a millionth of the noise
+        ringing.push_back(rows.noise[row] * static_cast<float>(power_of_db(level_db)));
     }
+    add_to_rows(ringing, rows, image);
 }
 
 void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                       std::span<float> image) {
-    for (int beam = 0; beam < rows.beams; ++beam) {
-        const auto gain = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws)));
-        for (auto k = static_cast<std::size_t>(beam); k < image.size(); k += rows.beams)
-            image[k] = std::min(gain * image[k], max_value);
+    std::vector<float> gains(rows.beams);
+    for (int beam = 0; beam < rows.beams; ++beam)
+        gains[beam] = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws)));
+    for (std::size_t first = 0; first < image.size(); first += gains.size()) {
+        for (std::size_t beam = 0; beam < gains.size(); ++beam)
+            image[first + beam] = std::min(gains[beam] * image[first + beam], max_value);
     }
 }
 
-/// Foreign pulses begin by a Poisson process, have exponential powers and last as long as the pulse.
-/// Each bin and beam of one has a draw of its own.
+/// Foreign pulses begin by a Poisson process, have exponential powers and last as long as the
+/// pulse. Each bin and beam of one has a draw of its own.
 void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
                       std::span<float> image) {
     const double window_s = rows.rows * rows.bin_s;
@@ -78,6 +76,13 @@ void lose_power(const ReceiverConfig& receiver, PhiloxKey key, std::span<float> 
 }
 
 }  // namespace
+
+void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image) {
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        for (float& value : image.subspan(row * rows.beams, rows.beams))
+            value = std::min(value + values[row], max_value);
+    }
+}
 
 bool has_faults(const ReceiverConfig& receiver) {
     return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0 ||

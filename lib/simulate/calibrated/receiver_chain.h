@@ -25,6 +25,9 @@ struct ImageRows {
     std::span<const float> noise;  ///< [rows] the value of the mean noise
 };
 
+/// Adds values to the bins of the first rows.
+void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image);
+
 /// Adds ringing and foreign pulses, weakens pings, and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image);

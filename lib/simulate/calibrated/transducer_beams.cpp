@@ -55,6 +55,20 @@ void add_between_bins(float* column, float row, float re, float im) {
     place[3] = std::fma(next, im, place[3]);
 }
 
+/// Calls use(beam, piece, weight) for the weights that are not 0.
+template <class Use>
+void for_each_weight(const TransducerBeams& beams, const PatchBlock& pieces,
+                     const PointEchoes& echoes, Use use) {
+    Amplitudes weights;
+    for (int beam = 0; beam < beams.beams(); ++beam) {
+        find_weights(beams, beam, pieces, echoes, weights);
+        for (int k = 0; k < pieces.count; ++k) {
+            if (weights.re[k] != 0.0F || weights.im[k] != 0.0F)
+                use(beam, k, weights.re[k], weights.im[k]);
+        }
+    }
+}
+
 }  // namespace
 
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
@@ -96,36 +110,26 @@ TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, doubl
 
 void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid) {
-    Amplitudes weights;
-    for (int beam = 0; beam < beams.beams(); ++beam) {
-        find_weights(beams, beam, pieces, echoes, weights);
-        for (int k = 0; k < pieces.count; ++k) {
-            const float re = weights.re[k];
-            const float im = weights.im[k];
-            if (re == 0.0F && im == 0.0F) continue;
-            const float power = echoes.power[k] * std::fma(re, re, im * im);
-            add_between_bins(grid.column(beam), echoes.row[k], power, 0.0F);
-        }
-    }
+    for_each_weight(beams, pieces, echoes, [&](int beam, int k, float re, float im) {
+        const float power = echoes.power[k] * std::fma(re, re, im * im);
+        add_between_bins(grid.column(beam), echoes.row[k], power, 0.0F);
+    });
 }
 
 void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
-                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
-    Amplitudes weights;
-    for (int beam = 0; beam < beams.beams(); ++beam) {
-        find_weights(beams, beam, pieces, echoes, weights);
-        for (int k = 0; k < pieces.count; ++k) {
-            const float a = amplitudes.re[k];
-            const float b = amplitudes.im[k];
-            const float re = weights.re[k];
-            const float im = weights.im[k];
-            if (re == 0.0F && im == 0.0F) continue;
-            // Explicit fma(): GCC contracts two adjacent products even if contraction is switched
-            // off, and other compilers do not.
-            add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
-                             std::fma(a, im, b * re));
-        }
-    }
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid,
+                    EchoGrid* mean) {
+    for_each_weight(beams, pieces, echoes, [&](int beam, int k, float re, float im) {
+        const float a = amplitudes.re[k];
+        const float b = amplitudes.im[k];
+        // Explicit fma(): GCC contracts two adjacent products even if contraction is switched
+        // off, and other compilers do not.
+        add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
+                         std::fma(a, im, b * re));
+        if (!mean) return;
+        const float power = echoes.power[k] * std::fma(re, re, im * im);
+        add_between_bins(mean->column(beam), echoes.row[k], power, 0.0F);
+    });
 }
 
 void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,

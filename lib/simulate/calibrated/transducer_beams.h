@@ -55,9 +55,10 @@ inline std::uint64_t find_columns(const TransducerBeams& /*beams*/, const PatchB
 /// Adds the powers of echoes to the real parts of the grid, shared between two bins.
 void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
-/// The same for complex amplitudes.
+/// The same for complex amplitudes. `mean`: a grid that receives the powers; null: none.
 void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
-                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
+                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid,
+                    EchoGrid* mean = nullptr);
 
 /// Finds the two-way power with which a beam receives an echo of power 1 from each piece.
 void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,

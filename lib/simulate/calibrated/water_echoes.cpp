@@ -181,11 +181,14 @@ class ReceivedWater {
 }  // namespace
 
 void add_water(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               PowerForm form, float gain, EchoGrid& grid) {
+               PowerForm form, float gain, EchoGrid& grid, EchoGrid* mean) {
     const ReceivedWater received(model, traced, context.scene);
     const PhiloxKey key = context.draws.of(stream_named("water"));
-    for (int c = 0; c < grid.columns(); ++c)
-        add_drawn(form, received.powers(c), gain, c, key, grid);
+    for (int c = 0; c < grid.columns(); ++c) {
+        const std::vector<float> powers = received.powers(c);
+        add_drawn(form, powers, gain, c, key, grid);
+        if (mean) add_drawn(PowerForm::power, powers, gain, c, key, *mean);
+    }
 }
 
 }  // namespace sonarsim
