@@ -5,6 +5,8 @@
 #include <cstddef>
 
 #include "core/elementary.h"
+#include "core/lanes.h"
+#include "simulate/calibrated/normals.h"
 
 namespace sonarsim {
 
@@ -104,20 +106,24 @@ DetectedSample::DetectedSample(const ReceiverConfig& receiver) {
 }
 
 void DetectedSample::apply(std::span<const float> mean, std::span<float> power) const {
-    for (std::size_t k = 0; k < power.size(); ++k) {
-        if (!(mean[k] > 0.0F) || !(power[k] > 0.0F)) continue;
-        const float x = power[k] / mean[k];
-        const float at = (natural_log(x) * log2_e - static_cast<float>(first_octave)) *
-                         static_cast<float>(steps_per_octave);
-        if (at >= static_cast<float>(steps)) {
-            power[k] *= last_gain_;
-            continue;
-        }
-        const float inside = std::max(0.0F, at);
-        const auto cell = static_cast<std::size_t>(inside);
-        const float share = inside - static_cast<float>(cell);
-        power[k] = mean[k] * std::fma(share, value_[cell + 1] - value_[cell], value_[cell]);
-    }
+    constexpr auto last_step = static_cast<float>(steps);
+    const auto delivered = [&](Floats8 means, Floats8 powers) {
+        const Floats8 at =
+            (natural_log_of_8(powers / means) * log2_e - static_cast<float>(first_octave)) *
+            static_cast<float>(steps_per_octave);
+        // In this order of arguments NaN becomes 0.
+        const Floats8 inside = least(greatest(at, 0.0F), last_step);
+        const Floats8 cell = floor(inside);
+        const auto [here, next] = table_entries(value_.data(), to_ints(cell));
+        const Floats8 within = means * fma(inside - cell, next - here, here);
+        const Floats8 drawn = where(at >= last_step, powers * last_gain_, within);
+        return where((means > 0.0F) & (powers > 0.0F), drawn, powers);
+    };
+    std::size_t k = 0;
+    for (; k + lanes <= power.size(); k += lanes)
+        delivered(Floats8::load(&mean[k]), Floats8::load(&power[k])).store(&power[k]);
+    for (; k < power.size(); ++k)
+        power[k] = delivered(mean[k], power[k])[0];
 }
 
 }  // namespace sonarsim

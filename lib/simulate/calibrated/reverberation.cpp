@@ -31,11 +31,14 @@ void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key,
     std::vector<float> powers(static_cast<std::size_t>(padded));
     for (int c = 0; c < grid.columns(); ++c) {
         const float* const cells = grid.column(c);
-        float reverberant = 0.0F;
         for (int row = 0; row < grid.rows(); ++row) {
             const float re = cells[std::ptrdiff_t{2} * row];
             const float im = cells[std::ptrdiff_t{2} * row + 1];
-            const float echo = form == PowerForm::power ? re : std::fma(re, re, im * im);
+            powers[row] = form == PowerForm::power ? re : std::fma(re, re, im * im);
+        }
+        float reverberant = 0.0F;
+        for (int row = 0; row < grid.rows(); ++row) {
+            const float echo = powers[row];
             powers[row] = reverberant > negligible * echo ? reverberant : 0.0F;
             reverberant = std::fma(tail.decay, reverberant, gain * echo);
         }

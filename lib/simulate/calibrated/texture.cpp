@@ -118,7 +118,7 @@ void Texture::apply(const PatchBlock& pieces, const SonarInScene& sonar, PhiloxK
     if (!exists()) return;
     WorldPlaces places{};  // whole vectors are read
     find_places(pieces, pieces.count, sonar, places);
-    PatchBlock::Array<float> field, gain, offset;
+    PatchBlock::Array<float> field;
     for (int k = 0; k < pieces.count; k += lanes) {
         const Floats8 height = Floats8(share_of_height) * Floats8::load(places.z.data() + k);
         const Floats8 u = Floats8::load(places.x.data() + k) + height;
@@ -131,11 +131,10 @@ void Texture::apply(const PatchBlock& pieces, const SonarInScene& sonar, PhiloxK
     }
     for (int k = 0; k < pieces.count; ++k) {
         const Strength& strength = strengths_[pieces.material[k]];
-        gain[k] = strength.gain;
-        offset[k] = strength.offset;
+        field[k] = -std::fma(strength.gain, field[k], strength.offset);
     }
     for (int k = 0; k < pieces.count; ++k)
-        power[k] *= exp_neg(-std::fma(gain[k], field[k], offset[k]));
+        power[k] *= exp_neg(field[k]);
 }
 
 }  // namespace sonarsim

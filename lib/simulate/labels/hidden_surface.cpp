@@ -166,7 +166,6 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
 std::vector<HiddenPiece> hidden_by_objects(const std::vector<HiddenPiece>& pieces,
                                            const SceneObjects& objects) {
     std::vector<HiddenPiece> out;
-    out.reserve(pieces.size());
     std::ranges::copy_if(pieces, std::back_inserter(out), [&](const HiddenPiece& hidden) {
         return !objects.is_background(hidden.object);
     });

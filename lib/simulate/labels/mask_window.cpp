@@ -42,14 +42,16 @@ std::vector<int> MaskWindow::flood(int k, float value, bool diagonal) {
 std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
                                                std::span<const std::uint16_t> ids) {
     std::map<std::uint16_t, MaskWindow> out;
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        if (ids[k] == 0) continue;
-        const auto line = static_cast<int>(k / frame.bins);
-        const auto bin = static_cast<int>(k % frame.bins);
-        MaskWindow& box = out.try_emplace(ids[k], MaskWindow{line, bin}).first->second;
-        box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
-        box.bin = std::min(box.bin, bin);
-        box.lines = line + 1 - box.line;
+    for (int line = 0; line < frame.lines; ++line) {
+        const std::span<const std::uint16_t> of_line =
+            ids.subspan(static_cast<std::size_t>(line) * frame.bins, frame.bins);
+        for (int bin = 0; bin < frame.bins; ++bin) {
+            if (of_line[bin] == 0) continue;
+            MaskWindow& box = out.try_emplace(of_line[bin], MaskWindow{line, bin}).first->second;
+            box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
+            box.bin = std::min(box.bin, bin);
+            box.lines = line + 1 - box.line;
+        }
     }
     for (auto& [id, box] : out) {
         const int more_lines = 2 * reach.lines + 1;
