@@ -56,10 +56,6 @@ Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Int
     return reach;
 }
 
-}  // namespace
-
-namespace {
-
 /// Drops the poses between the lines of a survey, which have three waypoints each after the first
 /// two: half-way, start and end of the next line. The other poses keep their times.
 void drop_turns(std::span<const Waypoint> waypoints, const Lawnmower& survey, Trajectory& poses) {

@@ -232,25 +232,22 @@ std::vector<ScatteredObject> scattered(const ScatterConfig& config, const Scatte
 
 /// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
-                   double range_m, SceneFiles& models, LazyBottom& bottom, TakenGround& taken,
+                   double range_m, Shapes& shapes, LazyBottom& bottom, TakenGround& taken,
                    SceneParts& parts) {
+    ScatterRule rule = rule_of(config);
     std::vector<PlacedFile> kinds;
-    std::vector<Surface> shapes;
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
         kinds.back().class_name = config.class_of(kinds.size() - 1);
-        shapes.push_back(surface_of(kinds.back(), models));
-        if (!shapes.back().triangles.empty()) continue;
+        rule.shapes.push_back(&shapes.of(kinds.back(), config.mesh));
+        if (!rule.shapes.back()->triangles.empty()) continue;
         throw InputError(config.place, path.string() + " has no surface to scatter");
     }
-    ScatterRule rule = rule_of(config);
-    for (const Surface& shape : shapes)
-        rule.shapes.push_back(&shape);
     const bool upright =
         std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
                   std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
-        add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
+        add_orientation_warning(up_question(kinds[i], *rule.shapes[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
     std::size_t number = 0;
     for (const ScatteredObject& object :
@@ -302,7 +299,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models, bool places_only) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
-    Shapes shapes(models);
+    Shapes& shapes = models.shapes;
     if (!scene.file.empty()) {
         const PlacedFile& file =
             parts.files.emplace_back(file_of(scene.file, scene.mesh, scene.place));
@@ -353,7 +350,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, range_m,
-                      models, bottom, taken, parts);
+                      shapes, bottom, taken, parts);
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();

@@ -10,18 +10,20 @@
 #include "input/scene/gltf/scene_files.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
+#include "simulate/assembly/shapes.h"
 #include "simulate/product/fan_store.h"
 #include "simulate/visibility/caster.h"
 
 namespace sonarsim {
 
-/// The variants of a mission often share the files of scenes, the last bottom made of them, the
-/// tree of rays of the first file and the fans of pictures. Not thread-safe, except for the last
-/// two.
+/// The variants of a mission often share the files of scenes, the surfaces of objects, the last
+/// bottom made of them, the tree of rays of the first file and the fans of pictures. Not
+/// thread-safe, except for the last two.
 class SceneStore : public SceneFiles {
   public:
     const std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
+    Shapes shapes{*this};
 
     /// Gets a sentence before a part of the scene is made that takes many seconds, with the key
     /// that makes it smaller; null: it goes unsaid.

@@ -18,7 +18,7 @@ class Shapes {
 
     const Surface& of(const PlacedFile& file, const MeshConfig& mesh) {
         const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
-            return shape.file == file.file && shape.mesh == mesh;
+            return shape.file.native() == file.file.native() && shape.mesh == mesh;
         });
         if (known != shapes_.end()) return known->surface;
         return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, models_)}).surface;

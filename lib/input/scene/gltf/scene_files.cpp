@@ -39,7 +39,7 @@ SceneFiles::~SceneFiles() = default;
 
 const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
     const auto known = std::ranges::find_if(models_->entries, [&](const Models::Entry& entry) {
-        return entry.file == placed.file && entry.heightmap == placed.heightmap &&
+        return entry.file.native() == placed.file.native() && entry.heightmap == placed.heightmap &&
                entry.seabed == placed.seabed;
     });
     if (known != models_->entries.end()) return known->model;
