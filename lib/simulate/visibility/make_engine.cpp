@@ -16,7 +16,7 @@ constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
 
 /// With more triangles in view for each beam of a fan of energies, it takes rays: each piece of the
 /// strips costs an echo. A side or a cone has few beams and few pieces.
-constexpr std::size_t strips_per_beam_max = 100;
+constexpr std::size_t strips_per_beam_max = 50;
 constexpr int strips_beams_min = 128;  ///< fans of fewer beams count as so many
 
 /// Factor on the density of rays over many triangles if a bin holds a mean.
