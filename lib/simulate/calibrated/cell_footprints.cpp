@@ -71,20 +71,19 @@ T along(std::int32_t axis, T x, T y, T z) {
     return axis == 0 ? x : axis == 1 ? y : z;
 }
 
-/// The squared edge of cells at a range and a grazing angle of `sine`. On the surface a resolution
-/// cell is longer than in range by one over the cosine of that angle.
+/// The squared edge of cells for a surface at a range and a grazing angle of `sine`. On the surface
+/// a resolution cell is longer than in range by one over the cosine of that angle, and cells are
+/// larger by the same factor.
 float wanted_edge2(const ScattererCells& cells, float range, float sine) {
-    const float cosine = std::sqrt(1.0F - sine * sine);
-    const float longer = std::min(1.0F / std::max(cosine, 1e-3F), longest_on_surface);
+    const float cosine2 = 1.0F - sine * sine;
+    const float longer2 =
+        std::min(1.0F / std::max(cosine2, 1e-6F), longest_on_surface * longest_on_surface);
+    const float grazing2 = cells.edge_per_root_range * cells.edge_per_root_range * range;
+    const float depth2 = cells.greatest_depth_m * cells.greatest_depth_m;
     const float width = cells.width_rad * range;
-    const auto of_longer = [&](float factor) {
-        const float most = cells.edge_per_root_range * cells.edge_per_root_range * range * factor;
-        const float width_by_length = width * width / (ScattererCells::least_number * most);
-        const float depth = cells.greatest_depth_m * factor;
-        return std::min(most * std::min(std::sqrt(2.0F / width_by_length), 1.0F), depth * depth);
-    };
     // Cells that are larger because of the length are no wider than a beam.
-    return std::min(of_longer(longer), std::max(of_longer(1.0F), width * width));
+    return std::min(std::min(grazing2 * std::sqrt(longer2), depth2 * longer2),
+                    std::max(std::min(grazing2, depth2), width * width));
 }
 
 float power_of_two(std::int32_t exponent) {

@@ -13,12 +13,14 @@ namespace {
 using Floats = PatchBlock::Array<float>;
 using Words = PatchBlock::Array<std::uint32_t>;
 
-// Length of cells as a share of the resolution: that of a level, and the greatest.
-constexpr double usual_of_resolution = 0.75;
-constexpr double max_of_resolution = 2.0;
+// Greatest length of cells as a share of the resolution: longer ones make speckle too long.
+constexpr double max_of_resolution = 0.75;
 
-// The number of levels with larger cells, far away and at normal incidence.
-constexpr int larger_levels = 2;
+// Scatterers in a resolution cell: amplitudes are about Rayleigh distributed.
+constexpr double scatterers_in_cell = 4.0;
+
+// The number of levels by which cells are larger at normal than at grazing incidence.
+constexpr int steep_levels = 1;
 
 /// The counters of the cells for their random draws.
 void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
@@ -48,23 +50,30 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
     }
 }
 
+/// The strengths of scatterers: exponentially distributed.
+void find_strengths(const Words& words, int count, Floats& strength) {
+    for (int k = 0; k < count; ++k)
+        strength[k] = -natural_log(unit_float(words[k]));
+}
+
 }  // namespace
 
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
                                double wavelength_m) {
-    const double per_root_range =
-        std::sqrt(resolution_m * width_rad / ScattererCells::least_number);
+    const double greatest = max_of_resolution * resolution_m;
+    const double per_root_range = std::sqrt(resolution_m * width_rad / scatterers_in_cell);
     const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
     ScattererCells out;
-    double edge = usual_of_resolution * resolution_m;
+    out.levels = 1;
+    double edge = greatest;
     while (edge > least && out.levels < 12) {
         edge *= 0.5;
         ++out.levels;
     }
-    out.levels += larger_levels;
+    out.levels += steep_levels;
     out.min_edge_m = static_cast<float>(edge);
     out.edge_per_root_range = static_cast<float>(per_root_range);
-    out.greatest_depth_m = static_cast<float>(max_of_resolution * resolution_m);
+    out.greatest_depth_m = static_cast<float>(greatest);
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
     return out;
@@ -97,10 +106,10 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
     name_cells(block, count, for_strength, for_phase);
     philox_pairs(for_strength.data(), for_phase.data(), count, key);
     find_phases(block, count, sonar, cells.turns_per_m, turns);
+    Floats strength;
+    find_strengths(for_strength, count, strength);
     for (int k = 0; k < count; ++k) {
-        // Strengths are exponentially distributed.
-        const float strength = -natural_log(unit_float(for_strength[k]));
-        const float amplitude = std::sqrt(echoes.power[k] * strength);
+        const float amplitude = std::sqrt(echoes.power[k] * strength[k]);
         const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);
         out.re[k] = amplitude * phase.cos;
         out.im[k] = amplitude * phase.sin;

@@ -14,23 +14,17 @@ namespace sonarsim {
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
 /// own, all drawn from the cell's number. The edge of the cells doubles from one level to the next.
 /// A scatterer represents many, so its strength is exponentially distributed.
-///
-/// For given places of scatterers the power of a bin is exponential. Its mean varies with the
-/// places, by v of its square, so the contrast of speckle is 1 + v. With N cells to a resolution
-/// cell of length L and width W >= L (sinc^2 along, Gauss across), v = 0.19 (W/L + L/W) / N^2 or
-/// less, by the integral over both spectra. N = max(4, sqrt(8 W/L)) keeps v below 0.03; 0.034 was
-/// measured.
 struct ScattererCells {
-    static constexpr float least_number = 4.0F;  ///< least N
-    float min_edge_m = 0.0F;                     ///< level 0
-    float edge_per_root_range = 0.0F;            ///< m per sqrt(m), of N = 4 at grazing incidence
-    float greatest_depth_m = 0.0F;               ///< greatest size of a cell in range
-    float width_rad = 0.0F;                      ///< width of a resolution cell
+    float min_edge_m = 0.0F;           ///< level 0
+    float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
+    float greatest_depth_m = 0.0F;     ///< greatest size of a cell in range
+    float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
 };
 
-/// `resolution_m` in range and `width_rad` across: half-power sizes of a resolution cell.
+/// Four cells to a resolution cell of `resolution_m` in range and `width_rad` across, but no longer
+/// in range than the resolution.
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
                                double wavelength_m);
 
