@@ -66,7 +66,7 @@ TEST_CASE("auto takes rays for fans of energies over many triangles, strips for 
                         ->visible_surface(by, pose),
                     StripsEngine(scene, Caster(scene)).visible_surface(by, pose));
     };
-    CHECK(StripsEngine(many, Caster(many)).triangles_in_view(view, pose) > 128 * 50);
+    REQUIRE(many.triangles.size() > std::size_t{1} << 15);
     CHECK(takes_strips(few, view));
     CHECK_FALSE(takes_strips(many, view));
     view.shape = ViewShape::port_starboard;

@@ -9,9 +9,11 @@ namespace sonarsim {
 namespace {
 
 /// True if rays trace a sonar. Multipath continues from the middle of each sample, and a sample of
-/// the strips may be as long as a beam is high.
-bool is_by_rays(const Sonar& sonar) {
-    return sonar.config.multipath.method != MultipathMethod::none;
+/// the strips may be as long as a beam is high. Scenes of fans of energies alone need no strips.
+bool is_by_rays(const Sonar& sonar, const Scene& scene) {
+    const View& view = sonar.settings.view;
+    return sonar.config.multipath.method != MultipathMethod::none ||
+           (view.energies_add && !suits_strips(view, scene.triangles.size()));
 }
 
 }  // namespace
@@ -21,7 +23,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
     if (settings.type != EngineKind::automatic) return settings;
     bool all_by_rays = true;
     for (const Sonar& sonar : assembly.sonars) {
-        const bool by_rays = is_by_rays(sonar);
+        const bool by_rays = is_by_rays(sonar, assembly.scene);
         all_by_rays = all_by_rays && by_rays;
         if (!by_rays) continue;
         for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))

@@ -14,15 +14,14 @@ namespace {
 /// In scenes of more triangles `auto` takes rays for means, as their time hardly depends on them.
 constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
 
-/// With more triangles in view for each beam of a fan of energies, it takes rays: each piece of the
-/// strips costs an echo. A side or a cone has few beams and few pieces.
-constexpr std::size_t strips_per_beam_max = 50;
-constexpr int strips_beams_min = 128;  ///< fans of fewer beams count as so many
+/// In scenes of more triangles it takes rays for fans of energies: each piece of the strips costs
+/// an echo. A side or a cone has few beams and few pieces.
+constexpr std::size_t strips_of_energies_max = std::size_t{1} << 15;
 
 /// Factor on the density of rays over many triangles if a bin holds a mean.
 constexpr int density_over_many_triangles = 4;
 
-/// Strips, or rays for the views that need them and where too many triangles are in view.
+/// Strips, or rays for the views that need them or suit them better.
 class AutoEngine final : public VisibilityEngine {
   public:
     AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
@@ -37,8 +36,7 @@ class AutoEngine final : public VisibilityEngine {
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         if (std::ranges::find(by_rays_, view) != by_rays_.end())
             return rays_->visible_surface(view, T_world_sensor);
-        if (suits_strips(view, T_world_sensor))
-            return strips_.visible_surface(view, T_world_sensor);
+        if (suits_strips(view, triangles_)) return strips_.visible_surface(view, T_world_sensor);
         const bool dense = dense_rays_ && !view.energies_add;
         return (dense ? dense_rays_ : rays_)->visible_surface(view, T_world_sensor);
     }
@@ -49,13 +47,6 @@ class AutoEngine final : public VisibilityEngine {
     }
 
   private:
-    bool suits_strips(const View& view, const Pose& T_world_sensor) const {
-        if (!view.energies_add) return triangles_ <= strips_triangles_max;
-        if (view.shape != ViewShape::fan) return true;
-        const std::size_t beams = std::max(view.beams, strips_beams_min);
-        return strips_.triangles_in_view(view, T_world_sensor) <= beams * strips_per_beam_max;
-    }
-
     std::size_t triangles_;
     StripsEngine strips_;
     std::unique_ptr<VisibilityEngine> rays_, dense_rays_;
@@ -63,6 +54,11 @@ class AutoEngine final : public VisibilityEngine {
 };
 
 }  // namespace
+
+bool suits_strips(const View& view, std::size_t triangles) {
+    if (!view.energies_add) return triangles <= strips_triangles_max;
+    return view.shape != ViewShape::fan || triangles <= strips_of_energies_max;
+}
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);

@@ -20,11 +20,14 @@ struct EngineSettings {
     EngineKind type = EngineKind::rays;
     OctreeOptions octree;  ///< for the octree only
     /// For `automatic` only: the views that rays trace. Strips trace the others, or rays in scenes
-    /// with bodies or copies and where many triangles are in view.
+    /// with bodies, copies or many triangles.
     std::vector<View> by_rays = {};
     /// A caster over the scene, whose trees the rays and the strips then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };
+
+/// False if rays suit a view of a scene of so many triangles better than strips.
+bool suits_strips(const View& view, std::size_t triangles);
 
 /// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is
 /// too small for the scene, and std::runtime_error when memory does not suffice.

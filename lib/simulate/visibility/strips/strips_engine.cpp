@@ -59,11 +59,4 @@ std::vector<std::uint32_t> StripsEngine::clusters_in(const View& view, Pose T_lo
     return out;
 }
 
-std::size_t StripsEngine::triangles_in_view(const View& view, const Pose& T_world_sensor) const {
-    std::size_t count = 0;
-    for (const std::uint32_t k : clusters_in(view, T_world_sensor))
-        count += mesh_.clusters[k].triangles;
-    return count;
-}
-
 }  // namespace sonarsim

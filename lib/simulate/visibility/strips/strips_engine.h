@@ -24,9 +24,6 @@ class StripsEngine final : public VisibilityEngine {
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override;
 
-    /// The triangles of the clusters that may lie in view: its time is about proportional to them.
-    std::size_t triangles_in_view(const View& view, const Pose& T_world_sensor) const;
-
   private:
     std::vector<std::uint32_t> clusters_in(const View& view, Pose T_local_sensor) const;
     void scan(const ColumnFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
