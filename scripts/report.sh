@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # ./scripts/report.sh [options of `sonarsim report`]: measures the tank and the sea floor and puts
-# the tables into docs/accuracy.md and the plots beside it. Takes some minutes on an idle machine.
+# the tables into docs/accuracy.md. Takes some minutes on an idle machine.
 # SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh: measures these, into
-# out/report_SCENE. Tables and plots that docs/accuracy.md has marks for go into that page.
+# out/report_SCENE, with plots. Tables that docs/accuracy.md has marks for go into that page.
 # QUARTERINGS="0 1 2 3": the lifeboat once for each number, with its triangles cut into four that often.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -15,8 +15,8 @@ measure() { # scene, the name of its report, options of `sonarsim report`
     "$root/build/sonarsim" report "$root/configs/${scene}_imaging.yaml" --out "$out" "$@"
     /usr/bin/python3 "$root/scripts/plot_report.py" "$out/report.json" "$out"
     if grep -q "<!-- report $name -->" "$root/docs/accuracy.md"; then
-        cp "$out/error_fls.svg" "$root/docs/error_$name.svg"
-        tables+=("$name=$out/report.md")
+        awk '/^\|/ { print; found = 1; next } found { exit }' "$out/report.md" >"$out/table.md"
+        tables+=("$name=$out/table.md")
     fi
 }
 

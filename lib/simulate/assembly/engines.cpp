@@ -9,7 +9,7 @@ namespace sonarsim {
 namespace {
 
 /// True if rays trace a sonar. Multipath continues from the middle of each sample, and a sample of
-/// the strips may be as long as a beam is high. Scenes of fans of energies alone need no strips.
+/// the strips may be as long as a beam is high. If rays trace all sonars, no strips are prepared.
 bool is_by_rays(const Sonar& sonar, const Scene& scene) {
     const View& view = sonar.settings.view;
     return sonar.config.multipath.method != MultipathMethod::none ||

@@ -202,8 +202,8 @@ TEST_CASE("strips: no face of a stay stands for many times its area") {
 }
 
 TEST_CASE("strips: no beam of a drawn lattice is far from brute force at any goal") {
-    // Imaging sonars at trusses, ladders and a net. Two beams of scene 76 hold the edge of a face
-    // at their border, which rays miss, too.
+    // Imaging sonars at trusses, ladders and a net. Behind a post of scene 76 the background shows
+    // in 5 and 10 % of two beams, less than half a column, and a bin has the mean of what shows.
     for (const std::uint32_t number : {2U, 6U, 42U, 46U, 64U, 76U}) {
         const test::Lattice lattice = test::draw_lattice(number);
         const Caster caster(lattice.scene);

@@ -17,8 +17,8 @@ constexpr float max_by_thinness = 4.0F;
 // Columns of a side where energies add: the beam receives most from its middle.
 constexpr float side_columns = 13.0F;
 
-// Energies are weighed by the beam pattern at the middle of a sample. So a column of a fan or a cone
-// has at least so many samples along the view, and a side one for each of these angles.
+// An energy is weighed by the beam pattern at the middle of its sample. A sample of a fan or a cone
+// spans at most this share of the view along its column, one of a side at most this angle.
 constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
