@@ -56,13 +56,18 @@ class Variants(Sandbox):
         self.refused("rules.yaml:", "a list of rules")
         self.write("rules.yaml", "- {key: noise.mult_sigma, uniform: [0.2, 0.3]}\n"
                                  "- {key: noise.add_sigma, uniform: [3, 4]}\n")
-        self.edit("mission.yaml", ", sensor: fls}", "}")
-        self.refused("mission.yaml:", "needs the key 'sensor'")
-        self.edit("mission.yaml", "rules.yaml}", "rules.yaml, sensor: fls}")
+        self.edit("mission.yaml", ", sensor: fls}", ", per: ping}")
+        self.refused("mission.yaml:", "takes the key 'sensor'")
+        self.edit("mission.yaml", "rules.yaml, per: ping}", "rules.yaml, sensor: fls}\n  - {preset: sea.yaml}")
+        self.write("sea.yaml", "- {key: water.temperature_c, scale: [0.5, 2]}\n"
+                               "- {key: water.scattering_db_per_m3, scale: [0.5, 2]}\n")
+        self.refused("sea.yaml:2", "'scale' needs a number to multiply")
+        self.edit("sea.yaml", "- {key: water.scattering_db_per_m3, scale: [0.5, 2]}\n", "")
         self.assert_renders()
         for one in self.variants():
             self.assertTrue(0.2 <= one["drawn"]["sensors.fls.noise.mult_sigma"] <= 0.3)
             self.assertTrue(0.01 <= one["drawn"]["sensors.fls.noise.add_sigma"] <= 0.2)  # the mission's own rule
+            self.assertTrue(5 <= one["drawn"]["water.temperature_c"] <= 20)  # the default is 10
 
     def test_finished_variants_are_skipped_without_their_scenes(self):
         for shard in ("2/3", "1/3", "3/3"):

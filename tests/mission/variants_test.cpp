@@ -49,6 +49,10 @@ TEST_CASE("draws: uniform, in the logarithm, and normal") {
     CHECK(std::fabs(log_mean - 0.5 * std::log(1e-3 * 10.0)) < 0.0283 * ends / std::sqrt(12.0));
     CHECK(std::fabs(log_spread / (ends / std::sqrt(12.0)) - 1.0) < 0.02);
 
+    VaryConfig scale;
+    scale.scale = decades.log_uniform;
+    CHECK(number(scale, 7) == number(decades, 7));
+
     VaryConfig normal;
     normal.normal = {-4.0, 0.5};
     const auto [middle, width] = moments(normal, [](double x) { return x; });

@@ -66,8 +66,8 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
     const double share = unit_pair(key, 0)[0];
     if (rule.normal) return number_text(draw_normal(rule, key));
     if (rule.uniform) return number_text(part_of(*rule.uniform, share));
-    if (rule.log_uniform) {
-        const auto [low, high] = *rule.log_uniform;
+    if (rule.log_uniform || rule.scale) {
+        const auto [low, high] = rule.scale ? *rule.scale : *rule.log_uniform;
         return number_text(std::min(high, low * exponential(share * logarithm(high / low))));
     }
     if (rule.whole) {

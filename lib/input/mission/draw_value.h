@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// Draws a value of a rule and returns it as YAML text: for a variant, or with
+/// Draws a value of a rule, or the factor of `scale`, and returns it as YAML text: for a variant, or with
 /// Stream::ping_variation for a ping. Throws InputError at the rule's place when `within` is too
 /// narrow.
 std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t rule_index,

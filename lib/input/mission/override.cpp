@@ -106,6 +106,20 @@ void set_text(YamlNode& root, std::string_view path, const std::string& value,
            std::move(node));
 }
 
+std::optional<double> number_at(const YamlNode& root, std::string_view path) {
+    const YamlNode* node = &root;
+    for (const std::string& key : split_path(path, {}, "'key' is written as key or section.key")) {
+        if (node->kind == YamlNode::Kind::list) {
+            const std::optional<std::uint64_t> index = parse_unsigned(key);
+            node = index && *index < node->items.size() ? &node->items[*index] : nullptr;
+        } else {
+            node = node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
+        }
+        if (node == nullptr) return std::nullopt;
+    }
+    return node->kind == YamlNode::Kind::scalar ? parse_number(node->text) : std::nullopt;
+}
+
 void erase_key(YamlNode& map, std::string_view key) {
     std::erase_if(map.items, [&](const YamlNode& item) { return item.key == key; });
 }

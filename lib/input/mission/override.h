@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ void apply_override(YamlNode& root, const std::string& setting);
 /// place of the value and of all its parts.
 void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where);
+
+/// The number at the path "a.b.c"; none where the document has no number there.
+std::optional<double> number_at(const YamlNode& root, std::string_view path);
 
 /// Removes a key of a map, if it is there.
 void erase_key(YamlNode& map, std::string_view key);

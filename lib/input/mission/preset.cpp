@@ -120,9 +120,10 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
             continue;
         }
         const YamlNode* const sensor = item.find("sensor");
-        if (sensor == nullptr || sensor->text.empty() || item.items.size() != 2) {
+        if ((sensor != nullptr && sensor->text.empty()) ||
+            item.items.size() != (sensor != nullptr ? 2U : 1U)) {
             throw InputError(item.place.location(),
-                             "a preset of 'vary' needs the key 'sensor', the name of the sensor "
+                             "a preset of 'vary' takes the key 'sensor', the name of the sensor "
                              "that it varies, and no other key");
         }
         const YamlNode preset = read_preset_file(*name, base_folder, randomised_presets);
@@ -132,7 +133,7 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
             YamlNode* const key = rule.kind == YamlNode::Kind::map ? rule.find("key") : nullptr;
             if (key == nullptr)
                 throw InputError(rule.place.location(), "a rule of 'vary' needs the key 'key'");
-            key->text = "sensors." + sensor->text + "." + key->text;
+            if (sensor != nullptr) key->text = "sensors." + sensor->text + "." + key->text;
             if (!is_given(key->text)) rules.push_back(std::move(rule));
         }
     }

@@ -26,7 +26,7 @@ std::filesystem::path preset_file(const std::filesystem::path& name,
                                   const std::filesystem::path& base_folder);
 
 /// Replaces the items {preset: FILE, sensor: NAME} of the mission's list `vary` by the rules of the
-/// file, whose keys are those of the sensor.
+/// file, whose keys are those of the sensor, or of the mission where no sensor is named.
 void fill_in_rules(YamlNode& mission, const std::filesystem::path& base_folder);
 
 /// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key

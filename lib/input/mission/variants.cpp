@@ -1,12 +1,15 @@
 #include "input/mission/variants.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/random.h"
+#include "core/text.h"
 #include "input/mission/draw_value.h"
 #include "input/mission/override.h"
 #include "input/mission/parse.h"
 #include "input/mission/preset.h"
+#include "input/mission/resolved.h"
 
 namespace sonarsim {
 
@@ -45,6 +48,18 @@ std::vector<std::string> draw_values(const Mission& mission, std::uint32_t index
     return values;
 }
 
+bool has_scale(const VaryConfig& rule) {
+    return rule.scale.has_value();
+}
+
+/// The value of a rule with `scale`; `own` has the values without it.
+std::string scaled(const VaryConfig& rule, const std::string& factor, const YamlNode& own) {
+    if (const std::optional<double> value = number_at(own, rule.key))
+        return number_text(*value * *parse_number(factor));
+    throw InputError(rule.place, "'scale' needs a number to multiply, which '" +
+                                     printable(rule.key) + "' is not");
+}
+
 /// Makes missions of values that are drawn.
 class VariantMaker {
   public:
@@ -66,19 +81,33 @@ class VariantMaker {
         Variant variant;
         variant.index = index;
         variant.of = mission_.variants;
+        const auto set = [&](const VaryConfig& rule, const std::string& value) {
+            set_text(root, rule.key, value, rule.place);
+            variant.drawn.emplace_back(rule.key, value);
+        };
         for (std::size_t k = 0; k < values.size(); ++k) {
             const VaryConfig& rule = mission_.vary[k];
-            if (rule.per == VaryPer::ping) continue;
-            set_text(root, rule.key, values[k], rule.place);
-            variant.drawn.emplace_back(rule.key, values[k]);
+            if (rule.per != VaryPer::ping && !rule.scale) set(rule, values[k]);
         }
-        Mission drawn = parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
+        if (std::ranges::any_of(mission_.vary, has_scale)) {
+            // After the other rules, one of which may draw a preset.
+            const YamlNode own = read_document(resolved_yaml(parsed(root), sonars_), "");
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                const VaryConfig& rule = mission_.vary[k];
+                if (rule.scale) set(rule, scaled(rule, values[k], own));
+            }
+        }
+        Mission drawn = parsed(root);
         drawn.output.folder = mission_.output.folder / variant_folder(index);
         drawn.variant = std::move(variant);
         return drawn;
     }
 
   private:
+    Mission parsed(const YamlNode& root) const {
+        return parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
+    }
+
     const Mission& mission_;
     const MissionSource& source_;
     SonarKeyTable sonars_;

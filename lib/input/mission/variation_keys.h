@@ -31,6 +31,7 @@ struct VaryConfig {
     VaryPer per = VaryPer::variant;
     std::optional<std::array<double, 2>> uniform;      ///< least and largest
     std::optional<std::array<double, 2>> log_uniform;  ///< uniform in the logarithm
+    std::optional<std::array<double, 2>> scale;        ///< factors of the key's own value
     std::optional<std::array<double, 2>> whole;        ///< whole numbers, both ends included
     std::optional<std::array<double, 2>> normal;       ///< mean and standard deviation
     std::optional<std::array<double, 2>> within;       ///< limits of a normal draw
@@ -58,13 +59,14 @@ template <class Visitor>
 void describe(Visitor& v, VaryConfig& c) {
     constexpr Limits any{-1e18, 1e18};
     v.path("preset", c.preset,
-           "a file of rules for a sensor, below the mission's folder or one that came with the "
-           "program, such as randomised/imaging.yaml; the mission's own rules have precedence");
-    v.text("sensor", c.sensor, "the sensor that these rules vary");
+           "a file of rules, below the mission's folder or one that came with the program, such as "
+           "randomised/imaging.yaml; the mission's own rules have precedence");
+    v.text("sensor", c.sensor,
+           "the sensor whose keys the file's rules vary; default: the mission's");
     v.text("key", c.key,
            "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
            "scene.objects.0.position_m.2");
-    v.require(!c.key.empty(), {}, "a rule of 'vary' needs the key 'key', or 'preset' and 'sensor'");
+    v.require(!c.key.empty(), {}, "a rule of 'vary' needs the key 'key' or 'preset'");
     v.choice("per", c.per, vary_pers,
              "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
              "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
@@ -72,21 +74,30 @@ void describe(Visitor& v, VaryConfig& c) {
     v.array("uniform", c.uniform, any, "the least and the largest number");
     v.array("log_uniform", c.log_uniform, any,
             "the least and the largest number; each decade is equally likely");
+    v.array("scale", c.scale, any,
+            "the least and the largest factor of the value that the mission, its preset or the "
+            "default has, drawn "
+            "as by log_uniform; 0 stays 0");
     v.array("whole", c.whole, any, "the least and the largest whole number");
     v.array("normal", c.normal, any, "mean and standard deviation");
     v.array("within", c.within, any, "limits of a normal draw; a draw outside them is repeated");
     v.text("choice", c.choice, "values of any kind, each equally likely");
     const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
-    v.require(
-        c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
-                c.normal.has_value() + !c.choice.items.empty() ==
-            1,
-        {}, "a key that varies needs exactly one of: uniform, log_uniform, whole, normal, choice");
-    v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.whole) && rises(c.within),
-              {"uniform", "log_uniform", "whole", "within"},
+    v.require(c.uniform.has_value() + c.log_uniform.has_value() + c.scale.has_value() +
+                      c.whole.has_value() + c.normal.has_value() + !c.choice.items.empty() ==
+                  1,
+              {},
+              "a key that varies needs exactly one of: uniform, log_uniform, scale, whole, normal, "
+              "choice");
+    v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.scale) && rises(c.whole) &&
+                  rises(c.within),
+              {"uniform", "log_uniform", "scale", "whole", "within"},
               "the first number must not be above the second");
     v.require(!c.log_uniform || (*c.log_uniform)[0] > 0.0, {"log_uniform"},
               "'log_uniform' takes numbers above 0");
+    v.require(!c.scale || (*c.scale)[0] > 0.0, {"scale"}, "'scale' takes numbers above 0");
+    v.require(!c.scale || c.per != VaryPer::ping, {"scale", "per"},
+              "'scale' is not drawn for every ping");
     v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
               "the standard deviation must not be negative");
     v.require(!c.within || c.normal, {"within"}, "'within' needs 'normal'");
