@@ -103,6 +103,10 @@ class Preset(Sandbox):
                 self.refused("mission.yaml:17:", "source_level_db: 0")
             else:
                 self.assertRegex(self.succeeds("validate", "mission.yaml").stderr, rf"W18.*{advice} by \d+ dB")
+        # White bins of the ringing are no noise that hides echoes.
+        ringing = "receiver: {ring_down_db: 160, ring_down_m: 0.24}"
+        self.write("mission.yaml", MISSION.replace(noise, f"    model: calibrated\n    instrument: {{{ringing}}}\n"))
+        self.assertNotIn("W18", self.succeeds("validate", "mission.yaml").stderr)
 
 
 class Preview(Sandbox):

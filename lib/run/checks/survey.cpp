@@ -220,8 +220,9 @@ void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Pi
         const auto [signal, noise] = sonar.settings.model->signal_and_noise(
             clean.intensity[i], value, static_cast<int>(i) / ping.beams,
             static_cast<int>(i) % ping.beams);
-        sums.signal += signal;
-        sums.noise += noise;
+        // White counts once: the ringing after a pulse is no lost echo.
+        sums.signal += std::min<double>(signal, full_scale);
+        sums.noise += std::min<double>(noise, full_scale);
     }
     sums.bins += ping.intensity.size();
     sums.occupied += ping.counts.occupied_bins;
