@@ -43,9 +43,8 @@ TEST_SUITE("calibrated") {
         const Beamformer beams(array, sines, false);
         Beamformer::Scratch scratch(beams);
         std::vector<Lanes> out(beams.beams());
-        ElementNoiseOfPing noise =
-            beams.noise_of_ping(
-                {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
+        ElementNoiseOfPing noise = beams.noise_of_ping(
+            {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
         double sum = 0.0;
         double squares = 0.0;
         double products = 0.0;
@@ -69,6 +68,34 @@ TEST_SUITE("calibrated") {
         const double t = array.wavelengths / 255.0;
         const double sinc = std::sin(pi * t) / (pi * t);
         CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
+    }
+
+    TEST_CASE("beams: echoes between the columns have the energy of the pattern on average") {
+        // The mean over places of the sum over beams is the integral of the pattern over the sine,
+        // by the beams' distance. Columns are as far apart as they get.
+        const LineArray array = line_array(radians(1.0), -30.0);
+        const double step = 0.69 / array.wavelengths;
+        std::vector<double> sines;
+        for (int j = -40; j <= 40; ++j)
+            sines.push_back(j * step);
+        const Beamformer beams(array, sines, false);
+        EchoGrid grid(lanes, beams.grid().columns);
+        const int middle = beams.grid().columns / 2;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float share = (static_cast<float>(lane) + 0.5F) / lanes;
+            grid.column(middle)[2 * lane] = 1.0F - share;
+            grid.column(middle + 1)[2 * lane] = share;
+        }
+        Beamformer::Scratch scratch(beams);
+        std::vector<Lanes> out(beams.beams());
+        beams.form(&grid, 0, nullptr, scratch, out.data());
+        double received = 0.0;
+        for (const Lanes& powers : out)
+            received += std::accumulate(powers.begin(), powers.end(), 0.0) / lanes;
+        double pattern = 0.0;
+        for (double u = -40.0 * step; u < 40.0 * step; u += 0.01 * step)
+            pattern += 0.01 * line_pattern(array, u) * line_pattern(array, u);
+        CHECK(std::fabs(received / pattern - 1.0) < 0.003);
     }
 
     TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {

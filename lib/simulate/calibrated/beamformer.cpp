@@ -167,6 +167,13 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
     }
     scalloping_gain_ = static_cast<float>(between / in_columns);
+    // Amplitudes between columns: the mean power over all positions becomes that of the pattern.
+    const auto level = static_cast<float>(powers ? 1.0 : std::sqrt(noise / between));
+    for (Weight& weight : weights_) {
+        weight.re *= level;
+        weight.im *= level;
+        weight.noise_scale /= level;
+    }
     // The power of noise in a beam is the sum over elements and both parts.
     unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
 
