@@ -13,7 +13,7 @@ cmake --preset release >&2
 cmake --build build-release --target sonarsim >&2
 cmake --preset asan >&2
 cmake --build build-asan --target sonarsim >&2
-exec ./scripts/same_bytes.py \
+exec ./scripts/same_bytes.sh \
     --mission tests/four_sonars.yaml,engine=rays --mission tests/four_sonars.yaml,engine=octree \
     --mission tests/four_sonars.yaml,engine=strips \
     --mission configs/tank_imaging.yaml,trajectory.rate_hz=0.5 \

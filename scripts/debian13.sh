@@ -64,7 +64,7 @@ if [ ! -x "$program" ]; then
     program=$root/build/sonarsim
 fi
 configs=$root/configs
-exec ./scripts/same_bytes.py --folder "$root/build-debian13" \
+exec ./scripts/same_bytes.sh --folder "$root/build-debian13" \
     --mission "$root/tests/four_sonars.yaml,engine=rays" --mission "$root/tests/four_sonars.yaml,engine=octree" \
     --mission "$configs/tank_imaging.yaml,trajectory.rate_hz=1" \
     --mission "$configs/tank_multipath.yaml,trajectory.rate_hz=1" \

@@ -38,14 +38,14 @@ GENERATED = ROOT / "scenes" / "generated"
 FOREIGN = "motorbike"  # by foreign_mesh.sh, from a Debian package
 
 
-def builders(cells: int, area: float, quarterings: int) -> dict:
+def builders(cells: int, area: float) -> dict:
     """The files of every scene, by name, with the function that builds each."""
     return {
         "tank": {"tank": tank.build},
         "seafloor": {"seafloor": lambda: seafloor.build(cells, area)},
         "wreck": {"wreck": wreck.build},
         "close_bottom": {"close_bottom": close_bottom.build, **close_bottom.OBJECTS},
-        "lifeboat": {"lifeboat": lambda: lifeboat.build(quarterings)},
+        "lifeboat": {"lifeboat": lifeboat.build},
         "anchor": {"anchor": anchor.build},
         "bathymetry": {"bathymetry": bathymetry.build},
         "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
@@ -124,17 +124,13 @@ def main() -> int:
                         help="the sea floor has N x N cells of two triangles (default 708)")
     parser.add_argument("--area", type=float, default=200.0, metavar="M",
                         help="the sea floor is M x M metres (default 200)")
-    parser.add_argument("--quarterings", type=int, default=0, metavar="N",
-                        help="every triangle of the lifeboat is cut into four, N times (default 0)")
     parser.add_argument("--for", nargs=argparse.REMAINDER, dest="mission", default=[],
                         metavar="MISSION", help="make what is missing for a mission")
     arguments = parser.parse_args()
     if not 1 <= arguments.cells <= 10000 or not 1.0 <= arguments.area <= 1e5:
         parser.error("--cells takes 1 to 10000, --area 1 to 100000 metres")
-    if not 0 <= arguments.quarterings <= 4:
-        parser.error("--quarterings takes 0 to 4")
 
-    scenes = builders(arguments.cells, arguments.area, arguments.quarterings)
+    scenes = builders(arguments.cells, arguments.area)
     for name in arguments.names:
         if name not in scenes:
             parser.error(f"no scene '{name}'; there are {', '.join(scenes)}")

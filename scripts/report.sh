@@ -2,18 +2,16 @@
 # ./scripts/report.sh [options of `sonarsim report`]: measures the tank and the sea floor and puts
 # the tables into docs/accuracy.md. Takes some minutes on an idle machine.
 # SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh: measures these, into
-# out/report_SCENE, with plots. Tables that docs/accuracy.md has marks for go into that page.
-# QUARTERINGS="0 1 2 3": the lifeboat once for each number, with its triangles cut into four that often.
+# out/report_SCENE. Tables that docs/accuracy.md has marks for go into that page.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-"$root/scripts/setup.sh" python3-matplotlib
+"$root/scripts/setup.sh"
 tables=()
 
 measure() { # scene, the name of its report, options of `sonarsim report`
     local scene=$1 name=$2 out=$root/out/report_$2
     shift 2
     "$root/build/sonarsim" report "$root/configs/${scene}_imaging.yaml" --out "$out" "$@"
-    /usr/bin/python3 "$root/scripts/plot_report.py" "$out/report.json" "$out"
     if grep -q "<!-- report $name -->" "$root/docs/accuracy.md"; then
         awk '/^\|/ { print; found = 1; next } found { exit }' "$out/report.md" >"$out/table.md"
         tables+=("$name=$out/table.md")
@@ -27,12 +25,6 @@ for scene in ${SCENES:-tank seafloor}; do
             "$root/scripts/foreign_mesh.sh"
             measure motorbike motorbike "$@"
             ;;
-        lifeboat)
-            for times in ${QUARTERINGS:-0}; do
-                /usr/bin/python3 "$root/scripts/make_scenes.py" lifeboat --quarterings "$times"
-                measure lifeboat "lifeboat_$times" "$@"
-            done
-            ;;
         *)
             /usr/bin/python3 "$root/scripts/make_scenes.py" "$scene"
             measure "$scene" "$scene" "$@"
@@ -40,5 +32,5 @@ for scene in ${SCENES:-tank seafloor}; do
     esac
 done
 if ((${#tables[@]})); then
-    /usr/bin/python3 "$root/scripts/insert_tables.py" "$root/docs/accuracy.md" "${tables[@]}"
+    "$root/scripts/insert_tables.sh" "$root/docs/accuracy.md" "${tables[@]}"
 fi

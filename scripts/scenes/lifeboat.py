@@ -105,33 +105,5 @@ def gear():
     return part
 
 
-def quartered(part, levels):
-    """The same surface with every triangle cut into four, `levels` times."""
-    for _ in range(levels):
-        finer = Part(part.name, part.material)
-        middles = {}
-
-        finer.vertices.extend(part.vertices)
-
-        def middle(a, b):
-            key = (min(a, b), max(a, b))
-            if key not in middles:
-                middles[key] = len(finer.vertices) // 3
-                # Not rounded to 0.1 mm: the surface must stay what it is.
-                finer.vertices.extend((part.vertices[3 * a + k] + part.vertices[3 * b + k]) / 2
-                                      for k in range(3))
-            return middles[key]
-
-        for material, numbers in part.indices.items():
-            for k in range(0, len(numbers), 3):
-                a, b, c = numbers[k:k + 3]
-                ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
-                for triangle in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)):
-                    finer.add_triangle(*triangle, material)
-        part = finer
-    return part
-
-
-def build(levels=0):
-    return [quartered(part, levels)
-            for part in (hull(), thwarts(), rails(), ropes(), gear())]
+def build():
+    return [hull(), thwarts(), rails(), ropes(), gear()]

@@ -1,18 +1,15 @@
-"""sonarsim inspect, preset and preview, what a user looks at before a render; and the report of speed against error,
-with its plot."""
+"""sonarsim inspect, preset and preview, what a user looks at before a render; and the report of speed against error."""
 import json
 import math
 import struct
 import unittest
-import xml.etree.ElementTree
 
-from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, python_with
+from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf
 
 ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
        "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
 # A million rays show whether the figures are sound.
 QUICK = ("--quick", "-j1", "--reference-rays", "1000000")
-PYTHON = python_with("matplotlib")
 
 
 class Inspect(Sandbox):
@@ -52,13 +49,6 @@ class Inspect(Sandbox):
         self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
         self.assert_refused(self.run_sonarsim("inspect", "beds.csv"),
                             "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
-
-    @unittest.skipIf(PYTHON is None, "needs matplotlib")
-    def test_the_picture_of_scattering_in_the_docs(self):
-        self.run_program(PYTHON, ROOT / "scripts/plot_scattering.py", SONARSIM,
-                         ROOT / "scenes/materials.csv", "picture.svg")
-        for name in ("mud", "rock", "100 kHz"):
-            self.assertIn(name, (self.folder / "picture.svg").read_text())
 
 
 class Preset(Sandbox):
@@ -150,9 +140,6 @@ class Report(Sandbox):
         self.assertGreater(len(report["multipath_rows"]), 10)
         self.assertIn("| rays | relative_l1=0.01 |", (self.folder / "report/report.md").read_text())
         self.assertEqual({path.name for path in (self.folder / "report").iterdir()}, {"report.json", "report.md"})
-        if PYTHON:
-            self.plot("elsewhere.json")
-            self.assertEqual([path.name for path in self.out.iterdir()], ["error_fls.svg"])
 
     def test_bad_input(self):
         octree = ("--set", "sensors.fls.range_bins=8", "--engines", "octree")
@@ -165,32 +152,6 @@ class Report(Sandbox):
                 (("mission.yaml", *profile, *QUICK), "water.profile")):
             with self.subTest(arguments=arguments):
                 self.assert_refused(self.run_sonarsim("report", *arguments), words)
-
-    def plot(self, name, code=0):
-        said = self.run_program(PYTHON, ROOT / "scripts/plot_report.py", name, self.out, code=code).stderr
-        self.assertNotIn("Traceback", said)
-        return said
-
-    @unittest.skipIf(PYTHON is None, "needs matplotlib")
-    def test_plot(self):
-        def row(setting, ms, error, engine="rays", sensor="fls"):
-            return {"sensor": sensor, "engine": engine, "setting": setting, "ms_per_ping": ms, "relative_l1": error,
-                    "on_front": setting.endswith("0.01"), "current": setting.endswith("0.01")}
-        self.write("report.json", json.dumps({
-            "mission": "a < b & c", "reference": [{"sensor": "fls"}, {"sensor": "sss"}],
-            "rows": [row("relative_l1=0.1", 1.0, 0.08), row("relative_l1=0.01", 10.0, 0.009),
-                     row("leaf_m=0.04", 20.0, 0.02, "octree"), row("leaf_m=0.017", 20.0, 0.0, "octree"),
-                     row("relative_l1=0.37", 1.0, 0.2, sensor="sss")]}))
-        self.plot("report.json")
-        tree = xml.etree.ElementTree.parse(self.out / "error_fls.svg")
-        texts = ["".join(text.itertext()).strip() for text in tree.iter("{http://www.w3.org/2000/svg}text")]
-        for label in ("a < b & c, fls", "0.1", "0.01", "0.04", "the mission's own setting"):
-            self.assertIn(label, texts)
-        # A logarithmic axis has no place for an error of 0, and other sonars have their own plot.
-        self.assertFalse({"0.017", "0.37"} & set(texts))
-        self.assertTrue((self.out / "error_sss.svg").exists())
-        self.write("none.json", "[]")
-        self.assertIn("none.json: not a report", self.plot("none.json", code=2))
 
 
 if __name__ == "__main__":

@@ -9,10 +9,10 @@ import unittest.mock
 import numpy as np
 from scipy import special
 from tool import ROOT, ToolTest
-from sonarsim.calibrate import command, correlations, image, judge_pass, law, levels, noise, preset, scene, soundings  # noqa: E402
+from sonarsim.calibrate import command, correlations, image, judge_pass, law, levels, noise, preset, scene  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, delivered  # noqa: E402
-from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
+from sonarsim.recording import Law, Recording  # noqa: E402
 
 RANGES, BEAMS = 240, 96
 STEP_M, FIRST_M = 0.02, 1.01
@@ -259,22 +259,6 @@ class Fits(unittest.TestCase):
         height_m, pitch = scene.view_of(recording, unittest.mock.Mock(instrument={"beam": {"elevation_width_deg": 20.0}}))
         self.assertAlmostEqual(height_m / np.sin(pitch + np.radians(10.0)), 0.75, delta=0.05)
         self.assertAlmostEqual(height_m / np.sin(pitch - np.radians(10.0)), 1.65, delta=0.1)
-
-    def test_soundings(self):
-        draws = np.random.default_rng(40)
-        angle = np.tile(np.radians(np.linspace(-60.0, 60.0, 241)), (200, 1))
-        spread_m, level_db = 0.01 + 0.02 * np.abs(angle), 60.0 - 10.0 * np.abs(angle)
-        range_m = (10.0 + draws.uniform(-0.5, 0.5, (200, 1))) / np.cos(angle) + spread_m * draws.standard_normal(angle.shape)
-        power = 10.0 ** (0.1 * level_db) * draws.exponential(size=angle.shape)
-        range_m[draws.uniform(size=angle.shape) < 0.002] *= 1.1       # outliers
-        of = Soundings(range_m, angle, np.sqrt(power))
-        recording = Recording(kind="soundings", law=Law("amplitude", full_value=0), soundings=of)
-        at, level, spread = soundings.fit_soundings(recording, 0.0)
-        self.assertEqual(len(at), 15)
-        for a, found_db, found_m in zip(at, level, spread):
-            self.assertAlmostEqual(found_db.value, 60.0 - 10.0 * a, delta=0.4)
-            self.assertAlmostEqual(found_m.value, 0.01 + 0.02 * a, delta=0.1 * found_m.value)
-
 
 
 class Command(ToolTest):

@@ -19,7 +19,6 @@ from .law import full_value_of
 from .levels import fit_levels
 from .preset import new_keys, read_start, set_levels, set_shape, with_key
 from .scene import Echoes, own_mission, usual_mission
-from .soundings import NOTES, soundings_figures
 from .statistics import Bounded, CalibrationError
 
 SCENE_DECIDES = ("the scene decides law and noise: two scenes of one sonar differed by 20 dB, and the intervals are of this "
@@ -75,11 +74,11 @@ def check_usable(recording, kind):
     """CalibrationError with the reason if a recording cannot be calibrated."""
     if recording.kind != kind:
         raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose "
-                               "a preset of its kind (soundings: a profiling sonar)")
+                               "a preset of its kind")
+    if kind == "soundings":
+        raise CalibrationError("soundings determine no key of a preset; sonarsim compare shows how they differ")
     if len(recording) < 2:
         raise CalibrationError(f"{len(recording)} ping: a part is fitted and the other judged, so it takes two or more")
-    if recording.kind == "soundings":
-        return
     if recording.values.shape[1] < 24:
         raise CalibrationError("fewer than 24 ranges: record longer pings")
     # Values are rounded to whole numbers, unless all lie below 15.
@@ -120,9 +119,6 @@ def calibrate(recordings, options):
         windows = [[one.part(of) for of in split(len(one), options.judge, options.reverse)] for one in recordings]
         pings = [sum(len(parts[k]) for parts in windows) for k in (0, 1)]
         source = f"{pings[0]} pings of {name}, from {options.preset}"
-        if start.kind == "soundings":
-            figures = [row for parts in windows for row in soundings_figures(parts, math.radians(options.slope_deg))]
-            return result_of(name, pings, figures, [*notes, *NOTES], {}), text_of(start, {}, source)
         starts = [copy.deepcopy(start) for _ in windows]
         for own, (part, _) in zip(starts, windows):
             set_shape(own, part, options.settings)
@@ -265,7 +261,6 @@ def main(arguments=None):
     add("--report", metavar="FILE", help="writes all numbers as JSON")
     add("--judge", type=float, default=0.5, metavar="SHARE", help="the share of pings to judge (default: 0.5)")
     add("--reverse", action="store_true", help="judges the first pings and fits the last ones")
-    add("--slope-deg", type=float, default=0.0, metavar="DEG", help="slope of the bottom under soundings, down to port")
     add("--sensor", metavar="NAME", help="the sensor of a dataset, or of --mission, with several")
     add("--azimuth-deg", type=float, metavar="DEG", help="of fans: the opening")
     add("--range-m", type=float, nargs="+", metavar="METRES", help="of fans: least and largest, of each folder")
