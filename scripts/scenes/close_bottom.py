@@ -3,7 +3,7 @@ import math
 
 from .glb import Part
 from .noise import Draws, Relief
-from .shapes import add_quad, add_sphere
+from .shapes import add_quad, add_sphere, made
 
 CELL_M = 0.005
 FLOCS = 28
@@ -74,9 +74,7 @@ def flocs():
 
 def surface():
     """The surface of the water, at height 0."""
-    part = Part("surface", "water_surface")
-    add_quad(part, (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0))
-    return [part]
+    return [made("surface", "water_surface", (add_quad, (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)))]
 
 
 OBJECTS = {"close_bottom_flocs": flocs, "close_bottom_surface": surface}

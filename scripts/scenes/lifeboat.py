@@ -2,7 +2,7 @@
 import math
 
 from .glb import Part
-from .shapes import add_box, add_cylinder, add_sphere, add_torus
+from .shapes import add_box, add_cylinder, add_line, add_sides, add_sphere, add_torus, made
 
 LENGTH, BEAM, DEPTH = 7.5, 2.6, 1.5
 
@@ -16,18 +16,6 @@ def hull_point(u, v, side, inset=0.0):
     sheer = 0.35 * u * u
     return (LENGTH / 2 * u, side * max(0.0, half_breadth(u, v) - inset),
             DEPTH * v + sheer * v)
-
-
-def hull():
-    part = Part("hull", "steel")
-    along, up = 46, 11
-    for side in (-1, 1):
-        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side))
-                 for i in range(along + 1)] for j in range(up + 1)]
-        for j in range(up):
-            for i in range(along):
-                part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
-    return part
 
 
 def thwarts():
@@ -59,8 +47,7 @@ def rails():
         x, y, z = hull_point(u, 1.0, 1)
         arc = [(x, y * math.cos(math.pi * k / 10), z + 0.9 * math.sin(math.pi * k / 10))
                for k in range(11)]
-        for a, b in zip(arc, arc[1:]):
-            add_cylinder(part, a, b, 0.015, 6)
+        add_line(part, arc, 0.015, 6)
     return part
 
 
@@ -76,8 +63,7 @@ def ropes():
                 x, y, z = hull_point(u, 0.95, side)
                 sag = 0.18 * (1 - (2 * i / steps - 1) ** 2)
                 points.append((x, y + 0.02 * side, z - sag))
-            for a, b in zip(points, points[1:]):
-                add_cylinder(part, a, b, 0.006, 4)
+            add_line(part, points, 0.006, 4)
     bow, stern = hull_point(0.97, 1.0, 1), hull_point(-0.97, 1.0, 1)
     add_cylinder(part, (bow[0], 0.0, bow[2]), (0.4, 0.0, 3.1), 0.005, 4)
     add_cylinder(part, (0.4, 0.0, 3.1), (stern[0], 0.0, stern[2]), 0.005, 4)
@@ -106,4 +92,4 @@ def gear():
 
 
 def build():
-    return [hull(), thwarts(), rails(), ropes(), gear()]
+    return [made("hull", "steel", (add_sides, 46, 11, hull_point)), thwarts(), rails(), ropes(), gear()]

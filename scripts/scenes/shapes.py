@@ -1,6 +1,16 @@
 """Shapes to add to a part. All coordinates are world coordinates in metres, z up."""
 import math
 
+from .glb import Part
+
+
+def made(name, material, *shapes):
+    """The part of some shapes, each (function, arguments)."""
+    part = Part(name, material)
+    for add, *arguments in shapes:
+        add(part, *arguments)
+    return part
+
 
 def circle(n):
     """Cosine and sine at n equal steps around."""
@@ -51,6 +61,23 @@ def add_cylinder(part, start, end, radius, sides):
         part.add_quad(rings[0][k], rings[0][n], rings[1][n], rings[1][k])
         part.add_triangle(tops[0], rings[0][n], rings[0][k])
         part.add_triangle(tops[1], rings[1][k], rings[1][n])
+
+
+def add_line(part, points, radius, sides):
+    """Cylinders from each point to the next."""
+    for a, b in zip(points, points[1:]):
+        if math.dist(a, b) > 0.01:
+            add_cylinder(part, a, b, radius, sides)
+
+
+def add_sides(part, along, up, hull_point, is_there=lambda side, i, j: True):
+    """Both sides of a hull by hull_point(u, v, side), u from -1 to 1 and v from 0 to 1."""
+    for side in (-1, 1):
+        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side)) for i in range(along + 1)] for j in range(up + 1)]
+        for j in range(up):
+            for i in range(along):
+                if is_there(side, i, j):
+                    part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
 
 
 def add_torus(part, centre, ring_radius, tube_radius, around, across):

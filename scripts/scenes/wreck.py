@@ -4,7 +4,7 @@ import math
 from .boulders import boulders
 from .glb import Part
 from .noise import Relief, noise3
-from .shapes import add_cylinder, add_grid
+from .shapes import add_cylinder, add_grid, add_line, add_sides, made
 
 HALF = 30.0                             # half of the side of the bottom
 LENGTH, BEAM, DEPTH = 34.0, 8.0, 4.5    # the hull
@@ -35,18 +35,12 @@ def hull_point(u, v, side, inset=0.0):
 
 def plating():
     """Both sides, with holes where rust has gone through."""
-    part = Part("hull", "steel")
     along, up = 160, 28
-    for side in (-1, 1):
-        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side))
-                 for i in range(along + 1)] for j in range(up + 1)]
-        for j in range(up):
-            for i in range(along):
-                rust = noise3((i / 14, j / 7, 5.0 * side), 1.0, 31)
-                broken = rust - 0.25 * (j / up) > 0.28 or abs(i / along - 0.36) < 0.025
-                if not broken:
-                    part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
-    return part
+
+    def is_there(side, i, j):
+        rust = noise3((i / 14, j / 7, 5.0 * side), 1.0, 31)
+        return not (rust - 0.25 * (j / up) > 0.28 or abs(i / along - 0.36) < 0.025)
+    return made("hull", "steel", (add_sides, along, up, hull_point, is_there))
 
 
 def ribs():
@@ -57,29 +51,9 @@ def ribs():
         for side in (-1, 1):
             points = [hull_point(u, (j + 0.2) / (steps + 0.2), side, 0.08)
                       for j in range(steps + 1)]
-            for a, b in zip(points, points[1:]):
-                if math.dist(a, b) > 0.01:
-                    add_cylinder(part, a, b, 0.07, 6)
+            add_line(part, points, 0.07, 6)
         if k % 3:
             add_cylinder(part, hull_point(u, 0.96, -1, 0.08), hull_point(u, 0.96, 1, 0.08), 0.08, 8)
-    return part
-
-
-def keel():
-    part = Part("keel", "steel")
-    add_cylinder(part, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)
-    return part
-
-
-def boiler():
-    part = Part("boiler", "steel")
-    add_cylinder(part, (-6.0, -1.6, 1.2), (-2.2, -1.4, 1.3), 1.2, 40)
-    return part
-
-
-def mast():
-    part = Part("mast", "wood")
-    add_cylinder(part, (5.0, -4.5, 1.5), (12.0, -15.0, 0.2), 0.18, 16)
     return part
 
 
@@ -89,5 +63,8 @@ def build():
     cells = 260
     axis = [2 * HALF * k / cells - HALF for k in range(cells + 1)]
     add_grid(floor, axis, axis, height)
-    return ([floor, plating(), ribs(), keel(), boiler(), mast()]
+    return ([floor, plating(), ribs(),
+             made("keel", "steel", (add_cylinder, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)),
+             made("boiler", "steel", (add_cylinder, (-6.0, -1.6, 1.2), (-2.2, -1.4, 1.3), 1.2, 40)),
+             made("mast", "wood", (add_cylinder, (5.0, -4.5, 1.5), (12.0, -15.0, 0.2), 0.18, 16))]
             + boulders(30, HALF, 0.2, 1.0, height, 300))
