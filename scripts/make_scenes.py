@@ -41,34 +41,26 @@ FOREIGN = "motorbike"  # by foreign_mesh.sh, from a Debian package
 def builders(cells: int, area: float) -> dict:
     """The files of every scene, by name, with the function that builds each."""
     return {
-        "tank": {"tank": tank.build},
-        "seafloor": {"seafloor": lambda: seafloor.build(cells, area)},
-        "wreck": {"wreck": wreck.build},
-        "close_bottom": {"close_bottom": close_bottom.build, **close_bottom.OBJECTS},
-        "lifeboat": {"lifeboat": lifeboat.build},
-        "anchor": {"anchor": anchor.build},
-        "bathymetry": {"bathymetry": bathymetry.build},
-        "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
-        "stock": {f"stock/{name}": build for name, build in stock.files().items()},
+        "tank": {"tank.glb": tank.build},
+        "seafloor": {"seafloor.glb": lambda: seafloor.build(cells, area)},
+        "wreck": {"wreck.glb": wreck.build},
+        "close_bottom": {"close_bottom.glb": close_bottom.build, **close_bottom.OBJECTS},
+        "lifeboat": {"lifeboat.glb": lifeboat.build},
+        "anchor": {"anchor.obj": anchor.build},
+        "bathymetry": {"bathymetry.tif": bathymetry.build},
+        "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
+        "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},
     }
-
-
-def file_name(name: str) -> str:
-    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif"}
-    return name + suffixes.get(name, ".glb")
 
 
 def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
     """Writes the format that the ending of `name` asks for. Returns what the file holds."""
+    pixel_m = sediments.MOSAIC_PIXEL_M if name.stem == "backscatter" else bathymetry.PIXEL_M
+    writers = {".png": sediments.write_png, ".tif": lambda path, rows: bathymetry.write_geotiff(path, rows, pixel_m),
+               ".obj": write_obj, ".glb": write_glb}
+    size = writers[name.suffix](file, parts)
     if name.suffix in (".tif", ".png"):
-        if name.suffix == ".png":
-            size = sediments.write_png(file, parts)
-        elif name.stem == "backscatter":
-            size = bathymetry.write_geotiff(file, parts, sediments.MOSAIC_PIXEL_M)
-        else:
-            size = bathymetry.write_geotiff(file, parts)
         return f"{len(parts[0])} x {len(parts)} pixels, {size} bytes"
-    size = (write_obj if name.suffix == ".obj" else write_glb)(file, parts)
     return f"{len(parts)} objects, {sum(part.triangles() for part in parts)} triangles, {size} bytes"
 
 
@@ -90,7 +82,7 @@ def write(path: pathlib.Path, build) -> None:
 
 def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
     """Makes the missing files that a mission names; 2 if no script makes one of them."""
-    known = {GENERATED / file_name(file): build for files in scenes.values()
+    known = {GENERATED / file: build for files in scenes.values()
              for file, build in files.items()}
     known[ROOT / "scenes" / "tank.glb"] = tank.build
     missing = [path for path in files_named(mission, options)
@@ -140,7 +132,7 @@ def main() -> int:
         for name in arguments.names or ["tank"]:
             folder = arguments.out or (ROOT / "scenes" if name == "tank" else GENERATED)
             for file, build in scenes[name].items():
-                write(folder / file_name(file), build)
+                write(folder / file, build)
     except OSError as fault:
         cure = "" if arguments.mission or arguments.out else "; --out DIR names another folder"
         place = f"{fault.filename}: " if fault.filename else ""

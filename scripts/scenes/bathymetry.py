@@ -35,7 +35,7 @@ def build():
     return pixels(ROWS, COLUMNS, PIXEL_M, lambda x, y: NO_DATA if (x - 50) ** 2 + (y - 45) ** 2 < 9 else height(x, y, relief))
 
 
-def write_geotiff(path, rows, pixel_m=PIXEL_M):
+def write_geotiff(path, rows, pixel_m):
     """Little-endian, not compressed, so that the bytes depend on no library. Returns their number."""
     scale = struct.pack("<3d", pixel_m, pixel_m, 0)
     tie_point = struct.pack("<6d", 0, 0, 0, WEST_M, NORTH_M, 0)

@@ -77,4 +77,4 @@ def surface():
     return [made("surface", "water_surface", (add_quad, (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)))]
 
 
-OBJECTS = {"close_bottom_flocs": flocs, "close_bottom_surface": surface}
+OBJECTS = {"close_bottom_flocs.glb": flocs, "close_bottom_surface.glb": surface}

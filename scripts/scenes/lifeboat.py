@@ -40,9 +40,8 @@ def rails():
         for x, y, z in feet:
             add_cylinder(part, (x, y, z), (x, y, z + 0.6), 0.012, 6)
         for a, b in zip(feet, feet[1:]):
-            for height in (0.3, 0.6):
-                add_cylinder(part, (a[0], a[1], a[2] + height), (b[0], b[1], b[2] + height),
-                             0.01, 6)
+            for up in (0.3, 0.6):
+                add_cylinder(part, (*a[:2], a[2] + up), (*b[:2], b[2] + up), 0.01, 6)
     for u in (-0.4, -0.1, 0.2):
         x, y, z = hull_point(u, 1.0, 1)
         arc = [(x, y * math.cos(math.pi * k / 10), z + 0.9 * math.sin(math.pi * k / 10))

@@ -2,9 +2,8 @@
 import math
 
 from .boulders import boulders
-from .glb import Part
 from .noise import Relief
-from .shapes import add_grid
+from .shapes import add_grid, made
 
 
 def build(cells, area_m):
@@ -20,9 +19,8 @@ def build(cells, area_m):
         ripple = strength * math.sin(2 * math.pi * (x + bend) / 1.1) if strength > 0 else 0.0
         return relief(x, y) + ripple
 
-    floor = Part("floor", "sand")
     axis = [area_m * k / cells - half for k in range(cells + 1)]
-    add_grid(floor, axis, axis, height, lambda z: "silt" if z < -0.12 else "sand")
+    floor = made("floor", "sand", (add_grid, axis, axis, height, lambda z: "silt" if z < -0.12 else "sand"))
     radius_max = min(1.5, area_m / 20)
     count = min(100, math.ceil(area_m * area_m / 100))
     return [floor] + boulders(count, half, min(0.3, radius_max), radius_max, height, 100)

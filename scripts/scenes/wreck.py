@@ -59,11 +59,8 @@ def ribs():
 
 def build():
     height = bottom(Relief(18.0, 0.2, 4, 11))
-    floor = Part("floor", "sand")
-    cells = 260
-    axis = [2 * HALF * k / cells - HALF for k in range(cells + 1)]
-    add_grid(floor, axis, axis, height)
-    return ([floor, plating(), ribs(),
+    axis = [2 * HALF * k / 260 - HALF for k in range(261)]
+    return ([made("floor", "sand", (add_grid, axis, axis, height)), plating(), ribs(),
              made("keel", "steel", (add_cylinder, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)),
              made("boiler", "steel", (add_cylinder, (-6.0, -1.6, 1.2), (-2.2, -1.4, 1.3), 1.2, 40)),
              made("mast", "wood", (add_cylinder, (5.0, -4.5, 1.5), (12.0, -15.0, 0.2), 0.18, 16))]

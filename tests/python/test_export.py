@@ -1,6 +1,7 @@
 """`sonarsim export`: what it writes, read back by readers of its own, from a dataset that is made here."""
 import io
 import json
+import subprocess
 import tarfile
 import unittest
 
@@ -63,6 +64,7 @@ def write_dataset(folder, mission="made"):
     (folder / "sss/objects.json").write_text(json.dumps({"width": COLUMNS, "height": ROWS, "objects": listed}))
     description = {
         "format": "sonarsim dataset", "format_version": 3, "program_version": "0", "complete": True, "mission": mission,
+        "seed": 5,
         "poses": ROWS, "sensors": [
             sensor("fls", "imaging", PINGS, azimuth_edges_rad=[-0.5, 0.5], fan={"width_px": WIDTH, "height_px": HEIGHT},
                    files={"fan": "fls/fan/%06d.png", "objects": "fls/objects/%06d.json"}),
@@ -215,6 +217,56 @@ class Export(tool.ToolTest):
                 np.testing.assert_allclose(values, [(left + width / 2, top + height / 2), (width, height)], atol=1e-3)
             self.assertEqual((dest / "data.yaml").read_text(), "train: images/train\nval: images/train  # there is no "
                              'such part\nnames:\n  0: "mine"\n  1: "tyre"\n')
+
+    def test_oriented_boxes(self):
+        """Of a bar that lies askew: the rectangle holds all pixels, and no direction has a smaller one."""
+        rows, columns = np.mgrid[:HEIGHT, :WIDTH]
+        turn = np.radians(33)
+        along, across = ((columns - 20) * a + (rows - 15) * b for a, b in ((np.cos(turn), np.sin(turn)),
+                                                                           (-np.sin(turn), np.cos(turn))))
+        mask = (np.abs(along) < 11) & (np.abs(across) < 3)
+        path = self.out / "fls/objects/000002.json"
+        listed = json.loads(path.read_text())
+        listed["objects"][1]["fan"] = {"mask": counts_of(mask)}
+        path.write_text(json.dumps(listed))
+        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0")
+        number, *values = (self.dest / "labels/train/fls-000002.txt").read_text().splitlines()[0].split()
+        corners = np.array(values, float).reshape(4, 2) * (WIDTH, HEIGHT)
+        sides = np.diff(corners, axis=0, append=corners[:1])
+        self.assertEqual(number, "0")
+        np.testing.assert_allclose((sides * np.roll(sides, 1, axis=0)).sum(axis=1), 0, atol=0.01)
+        area = np.prod(np.linalg.norm(sides[:2], axis=1))
+        y, x = np.nonzero(mask)
+        pixels = np.array([(x + a, y + b) for a in (0, 1) for b in (0, 1)]).transpose(0, 2, 1).reshape(-1, 2)
+        for side, corner in zip(sides, corners):        # all lie on one side of each side
+            self.assertGreater((side[0] * (pixels - corner)[:, 1] - side[1] * (pixels - corner)[:, 0]).min(), -0.01)
+        angles = np.radians(np.arange(0, 90, 0.1))
+        widths = [np.ptp(pixels @ (np.cos(angles + more), np.sin(angles + more)), axis=0) for more in (0, np.pi / 2)]
+        self.assertLess(area, np.prod(widths, axis=0).min() + 0.05)
+        self.assertLess(area, 0.6 * np.prod(box_of(mask)[2:]))
+        self.refused("--oriented takes --format yolo", "--format", "coco", "--oriented")
+
+    def test_hugging_face(self):
+        """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
+        self.export(self.out, "--format", "hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6",
+                    "--licence", "cc-by-4.0", "--sensor", "fls")
+        self.export(self.out, "--format", "coco", "--sensor", "fls", dest=self.folder / "coco")
+        head, text = (self.dest / "README.md").read_text().removeprefix("---\n").split("\n---\n")
+        self.assertRegex(head, "^license: cc-by-4.0\n")
+        self.assertIn("data_dir: data", head)
+        for words in ("# made", "seed 5", "sonarsim 0 rendered", '0 "mine", 1 "tyre"'):
+            self.assertIn(words, text)
+        found = self.coco(dest=self.folder / "coco")[1]
+        for part, pings in (("train", range(5)), ("test", range(5, PINGS))):
+            folder = self.dest / "data" / part
+            rows = [json.loads(line) for line in (folder / "metadata.jsonl").read_text().splitlines()]
+            self.assertEqual([row["file_name"] for row in rows], [f"fls-{ping:06}.png" for ping in pings])
+            for row in rows:
+                with Image.open(folder / row["file_name"]) as picture:
+                    self.assertEqual(picture.size, (row["width"], row["height"]))
+                self.assertEqual(list(zip(row["objects"]["bbox"], row["objects"]["category"])),
+                                 [(one["bbox"], one["category_id"] - 1) for one in found[row["file_name"]]])
+        subprocess.run(["sha256sum", "-c", "--quiet", "SHA256SUMS"], cwd=self.dest, check=True)
 
     def test_raw_values_as_fans(self):
         """A fan of raw/ has at each pixel the bin that the fan of its bins' numbers names."""

@@ -12,8 +12,6 @@
     points = fls.points(fls[0])                # [n, 3] in the world, with instance and class
     data = sonarsim.data.torch_dataset(fls, ("polar", "class"))      # where torch is installed
 
-    python3 -m sonarsim.data OUT               # says what is in a dataset
-
 A sample has the names of docs/dataset.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
 written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
@@ -26,7 +24,6 @@ import os
 import pathlib
 import re
 import struct
-import sys
 import tokenize
 import typing
 import zlib
@@ -507,25 +504,3 @@ def read_json(data):
 
 
 DECODERS = {".npy": read_npy, ".png": read_png, ".json": read_json}
-
-
-def main(folder):
-    dataset = open_dataset(folder)
-    print(f"{folder}: {'complete' if dataset.complete else 'not complete'}")
-    for sensor in dataset.sensors.values():
-        print(f"{sensor.name}: {sensor.kind}, {len(sensor)} pings")
-        for name, value in (sensor[0].items() if len(sensor) else ()):
-            is_array = isinstance(value, np.ndarray)
-            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else "JSON")
-    for what in ("instances", "classes"):
-        if getattr(dataset, what):
-            print(f"{what}:", ", ".join(f"{k} {v}" for k, v in getattr(dataset, what).items()))
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
-        sys.exit(__doc__)
-    try:
-        main(sys.argv[1])
-    except ValueError as fault:
-        sys.exit(str(fault))

@@ -4,7 +4,7 @@ import dataclasses
 import numpy as np
 
 from ..compare.bootstrap import tolerance_of
-from ..compare.comparison import measure_images_of_both
+from ..compare.comparison import measure_both
 from ..compare.figure import value_of
 from .levels import scenes_of
 from .scene import pass_of, with_shape
@@ -19,7 +19,7 @@ def rows_beside(judged, simulated):
     full = simulated.law.full_value
     simulated = dataclasses.replace(simulated, law=dataclasses.replace(judged.law, full_value=full if judged.law.full_value
                                                                        else 0.0))
-    _, _, measured = measure_images_of_both((judged, simulated), judged.law.full_value == 0.0, False)
+    _, _, measured = measure_both((judged, simulated), judged.law.full_value == 0.0, False)
     others, rows = {figure.name: figure for figure in measured[1]}, []
     for figure in measured[0]:
         real, other = value_of(figure), value_of(others[figure.name]) if figure.name in others else np.nan

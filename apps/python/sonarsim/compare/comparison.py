@@ -46,8 +46,7 @@ def compare_recordings(real, simulated, seed=1):
                              "compare recordings of one kind")
     # A recording without a known largest value has no absolute level.
     is_relative = real.law.full_value == 0.0 or simulated.law.full_value == 0.0
-    measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
-    same_places, same_pings, measured = measure((real, simulated), is_relative)
+    same_places, same_pings, measured = measure_both((real, simulated), is_relative)
     others = {figure.name: figure for figure in measured[1]}
     pairs = [(figure, others[figure.name]) for figure in measured[0] if figure.name in others]
     figures = [compared(*pair, same_places, same_pings, seed) for pair in pairs]
@@ -65,13 +64,11 @@ def compare_recordings(real, simulated, seed=1):
     return Comparison(real, simulated, same_places, is_relative, figures)
 
 
-def measure_soundings_of_both(recordings, is_relative):
-    angles = common_angles(*recordings)
-    return False, False, [measure_soundings(one, angles, is_relative) for one in recordings]
-
-
-def measure_images_of_both(recordings, is_relative, have_one_zone=True):
+def measure_both(recordings, is_relative, have_one_zone=True):
     """(same places, same pings, figures of both)."""
+    if recordings[0].kind == "soundings":
+        angles = common_angles(*recordings)
+        return False, False, [measure_soundings(one, angles, is_relative) for one in recordings]
     images = [images_of(one, is_relative) for one in recordings]
     a, b = images
     is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)

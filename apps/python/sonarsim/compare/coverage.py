@@ -4,7 +4,7 @@ import dataclasses
 import numpy as np
 
 from ..recording import RecordingError
-from .comparison import measure_images_of_both, measure_soundings_of_both
+from .comparison import measure_both
 from .figure import value_of
 
 LOW, HIGH = 0.05, 0.95
@@ -32,8 +32,7 @@ def cover_of(real, simulated):
         if one.kind != real.kind:
             raise RecordingError(f"{one.name} is of the kind {one.kind}, {real.name} of the kind {real.kind}")
         is_relative = real.law.full_value == 0.0 or one.law.full_value == 0.0
-        measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
-        ours, theirs = measure((real, one), is_relative, *([] if real.kind == "soundings" else [False]))[2]
+        ours, theirs = measure_both((real, one), is_relative, False)[2]
         found.update({figure.name: (figure, value_of(figure)) for figure in ours if figure.name not in found})
         for figure in theirs:
             values.setdefault(figure.name, []).append(value_of(figure))

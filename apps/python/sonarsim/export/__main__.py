@@ -12,7 +12,7 @@ from ..command import need, run
 
 need("export", "numpy", "PIL")
 
-from . import formats, split
+from . import formats, pings, split
 from .destination import destination
 from .pieces import prepare
 from .source import Source
@@ -45,9 +45,14 @@ def parse(arguments):
                     "datasets as a folder that a trainer opens.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
-    add("--format", required=True, choices=formats.KINDS, help="the layout")
+    add("--format", required=True, choices=[*formats.KINDS, *pings.KINDS], help="the layout")
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
+    add("--oriented", action="store_true", help="of yolo: the least rectangle around the mask instead of the box")
+    add("--licence", default="unknown", metavar="ID", help="of hf: the licence of the card, as in cc-by-4.0")
+    add("--whole", action="store_true", help="of points: one cloud of all pings of a sonar")
+    add("--clean", action="store_true", help="of holoocean: images without noise")
+    add("--mesh", metavar="FILE", help="of holoocean: the .glb of the scene, written with z up")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
     add("--image", choices=("shown", "raw"), default="shown", help="of these sonars pictures for people, or the "
         "instrument's values")
@@ -82,6 +87,13 @@ def parse(arguments):
             not 1e-4 <= options.pixel_m <= 100 or options.tile):
         parser.error("--format crops needs --pixel-m, the side of a pixel from 0.0001 to 100 m, and no --tile; "
                      "other formats take no --pixel-m")
+    if options.format in pings.KINDS:
+        allowed = {"format", "folders", "dest", "sensor", *pings.KINDS[options.format][1]}
+        for key, value in vars(options).items():
+            if key not in allowed and value != parser.get_default(key):
+                parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
+    if options.oriented and (options.format != "yolo" or options.polygons):
+        parser.error("--oriented takes --format yolo and no --polygons")
     if options.tile and options.overlap >= min(options.tile):
         parser.error("--overlap must be less than the sides of a tile")
     return options
@@ -104,12 +116,14 @@ def prepare_all(pictures, numbers, options):
 
 
 def export(options):
+    if options.format in pings.KINDS:
+        return pings.export(options)
     options.split = split.parse(options.split) if options.split else None
     if len({os.path.realpath(folder) for folder in options.folders}) < len(options.folders):
         raise ValueError("a dataset is given twice")
     source = Source(options.folders, options)
     first = source.datasets[0].description
-    info = {"description": first["mission"], "version": first["program_version"]}
+    info = {"description": first["mission"], "version": first["program_version"], "seed": first["seed"]}
     statistics = Statistics(source.classes)
     if options.format == "masks" and len(source.classes) > 255:
         raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
@@ -125,7 +139,7 @@ def export(options):
             raise ValueError(no_pictures(source.pictures[0], options.tile))
         layout.finish()
         formats.write_json(folder / "statistics.json", statistics.as_json())
-    print(f"{options.dest}: {options.format}\n{statistics.text()}")
+    return print(f"{options.dest}: {options.format}\n{statistics.text()}")
 
 
 def no_pictures(picture, tile_px):

@@ -1,4 +1,5 @@
 """The layouts of trainers: each has add(piece) for every exported picture, and finish()."""
+import hashlib
 import io
 import json
 import os
@@ -96,7 +97,7 @@ class Coco(Format):
 
 class Yolo(Format):
     """images/PART/NAME.png, labels/PART/NAME.txt and data.yaml. A line per object: class from 0 on, then middle and
-    size of its box, or the corners of its outline, as shares of the picture."""
+    size of its box, or the corners of its outline or rectangle, as shares of the picture."""
 
     def add(self, piece):
         self.parts[piece.part] = True
@@ -109,6 +110,8 @@ class Yolo(Format):
         values = [((left + right) / 2, (top + bottom) / 2), (right - left, bottom - top)]
         if self.options.polygons:
             values = runs.joined(one["outlines"])
+        elif self.options.oriented:
+            values = runs.least_rectangle(sum(one["outlines"], []))
         return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
 
     def finish(self):
@@ -175,6 +178,47 @@ class WebDataset(Format):
         write(self.folder / "classes.txt", "".join(json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes))
 
 
+CARD = """---
+license: {licence}
+task_categories:
+- object-detection
+tags:
+- sonar
+- synthetic
+configs:
+- config_name: default
+  data_dir: data
+---
+# {mission}
+
+{pictures} pictures with boxes that sonarsim {version} rendered, seed {seed}. Licence: {licence}. `objects` of a row has
+`bbox` (x, y, width and height in pixels), `category` and `id`, the number of the thing. Categories: {classes}.
+`sha256sum -c SHA256SUMS` checks the files.
+"""
+
+
+class HuggingFace(Format):
+    """data/PART/NAME.png and metadata.jsonl, README.md (the card), and SHA256SUMS."""
+
+    def add(self, piece):
+        self.place_picture(piece, "data")
+        row = {"file_name": f"{piece.name}.png", "width": piece.width, "height": piece.height, "objects": {
+            "bbox": [bbox(one["box"]) for one in piece.objects], "category": [one["class"] - 1 for one in piece.objects],
+            "id": [one["id"] for one in piece.objects], "area": [one["area"] for one in piece.objects]}}
+        self.parts.setdefault(piece.part, []).append(json.dumps(row) + "\n")
+
+    def finish(self):
+        for part, rows in self.parts.items():
+            place(self.folder / "data" / part, "metadata.jsonl", "".join(rows).encode())
+        classes = ", ".join(f"{k} {json.dumps(name, ensure_ascii=False)}" for k, name in enumerate(self.classes))
+        write(self.folder / "README.md", CARD.format(
+            licence=self.options.licence, mission=self.info["description"], version=self.info["version"],
+            seed=self.info["seed"], pictures=sum(map(len, self.parts.values())), classes=classes))
+        files = sorted(path for path in self.folder.rglob("*") if path.is_file())
+        write(self.folder / "SHA256SUMS", "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  "
+                                                  f"{path.relative_to(self.folder)}\n" for path in files))
+
+
 class Crops(Format):
     """PART/CLASS/NAME.png; crops without an object are in PART/background."""
 
@@ -191,4 +235,5 @@ def folder_of(name):
     return re.sub(r"[^A-Za-z0-9_+-]", "_", name)
 
 
-KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops}
+KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops,
+         "hf": HuggingFace}

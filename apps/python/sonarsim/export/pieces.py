@@ -136,7 +136,7 @@ def show(one, picture, frame, options):
     shown["box"] = box
     if not is_whole:
         shown["mask"] = runs.counts_of(pixels, width, height)
-    if options.polygons:
+    if options.polygons or options.oriented:
         shown["outlines"] = runs.outlines(pixels, height)
     return shown
 

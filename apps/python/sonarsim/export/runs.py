@@ -116,6 +116,28 @@ def outline_from(grid, x, y, walked):
             return corners
 
 
+def least_rectangle(corners):
+    """The four corners of the rectangle of least area around points (x, y). One of its sides lies on their hull."""
+    hull = []
+    for ring in (sorted(set(corners)), sorted(set(corners), reverse=True)):     # the lower side, then the upper one
+        start = len(hull)
+        for x, y in ring:
+            while len(hull) > start + 1 and ((hull[-1][0] - hull[-2][0]) * (y - hull[-2][1])
+                                             <= (hull[-1][1] - hull[-2][1]) * (x - hull[-2][0])):
+                hull.pop()
+            hull.append((x, y))
+    hull = np.array(hull, float)        # closed, each point where the sides meet twice or more
+    along = np.diff(hull, axis=0)
+    along = along[along.any(axis=1)]
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    turns = np.stack([along, along[:, ::-1] * (-1, 1)], axis=1)     # [side, axis, x or y]
+    seen = turns @ hull.T
+    low, high = seen.min(axis=2), seen.max(axis=2)
+    best = np.prod(high - low, axis=1).argmin()
+    (a, b), (c, d) = zip(low[best], high[best])
+    return [tuple(corner) for corner in np.array([(a, c), (b, c), (b, d), (a, d)]) @ turns[best]]
+
+
 def joined(parts):
     """One outline that runs around several parts; lines without width join them."""
     corners = []

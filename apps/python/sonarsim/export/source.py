@@ -49,18 +49,14 @@ class Source:
             raise ValueError(f"{folders[0]}: has no pictures to export: none of the sensors writes any")
 
     def _add_folder(self, folder, is_one_of_many, options):
-        datasets = data.open_datasets(folder)
-        has_variants = datasets[0].folder != folder
-        parts = [None] * len(datasets)
-        if has_variants and options.split:
-            parts = split.of_variants(options.split, len(datasets), options.rounds)
-        for dataset, part in zip(datasets, parts):
-            if dataset.complete is not True:
-                raise ValueError(f"{dataset.folder}: is not complete; run the render command that made it again")
+        found = named_datasets(folder, is_one_of_many)
+        has_variants = found[0][1].folder != folder
+        is_split = has_variants and options.split
+        parts = split.of_variants(options.split, len(found), options.rounds) if is_split else [None] * len(found)
+        for (name, dataset), part in zip(found, parts):
             if not dataset.classes:
                 raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
-            names = [folder.resolve().name] if is_one_of_many else []
-            self._names.append("-".join(names + ([dataset.folder.name] if has_variants else [])))
+            self._names.append(name)
             self._shares.append(part if has_variants or not options.split else options.split)
             self.datasets.append(dataset)
 
@@ -104,6 +100,16 @@ class Source:
             picture.name, other = f"{first}-{other}", other + 1
         self._taken.add(picture.name)
         picture.dataset = index
+
+
+def named_datasets(folder, is_one_of_many):
+    """The (name, dataset) of a folder's datasets: "" for one alone, else by folder and variant. ValueError for half ones."""
+    found = data.open_datasets(folder)
+    for dataset in found:
+        if dataset.complete is not True:
+            raise ValueError(f"{dataset.folder}: is not complete; run the render command that made it again")
+    return [("-".join([folder.resolve().name] * is_one_of_many + [one.folder.name] * (one.folder != folder)), one)
+            for one in found]
 
 
 def require_known(given, known, option):

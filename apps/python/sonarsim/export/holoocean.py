@@ -1,0 +1,87 @@
+"""The folder that NeuSIS, AONeuS, neusis_ngp and SonarSplat read: states of HoloOcean as pickles, and Config.json.
+
+Columns of an image lie from starboard to port, theta = -Azimuth / 2 + column Azimuth / AzimuthBins, and a point is
+(r cos theta cos phi, r sin theta cos phi, r sin phi) in the frame of PoseSensor: x forward, y left, z up, as here."""
+import hashlib
+import json
+import pathlib
+import pickle
+import struct
+
+import numpy as np
+
+from ..command import naming, need
+from ..data import DataError, moved
+from .formats import place, write_json
+
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 0.01, "km": 1e3, "in": 0.0254, "ft": 0.3048}
+
+
+def mission_of(dataset):
+    """The mission of a dataset with every default."""
+    need("export", "yaml")
+    from ..recording import dataset as own     # pylint: disable=import-outside-toplevel
+    return own.read_yaml(dataset.folder / "mission.resolved.yaml", own.LARGEST_MISSION)
+
+
+def write(folder, dataset, sensors, options):
+    """Data/000012.pkl for each ping and Config.json, in a folder for each sonar if there are several."""
+    mission, sensors = mission_of(dataset), [one for one in sensors if one.kind == "imaging"]
+    if not sensors:
+        raise DataError(f"{dataset.folder}: has no imaging sonar, and this layout holds no other")
+    for sensor in sensors:
+        own = folder / sensor.name if len(sensors) > 1 else folder
+        name = "clean" if options.clean else "raw" if "raw" in sensor.keys else "polar"
+        if name not in sensor.keys:
+            raise DataError(f"{dataset.folder}: sensor {sensor.name!r} has no {name}; set output."
+                            f"{'labels: [clean]' if options.clean else name + ': true'} and render it again")
+        for sample in sensor:
+            image = sample[name]
+            full = np.iinfo(image.dtype).max if image.dtype.kind == "u" else 1.0
+            state = {"ImagingSonar": (image / full).astype(np.float32), "PoseSensor": matrix_of(sample["meta"]["T_world_sensor"])}
+            # numpy 1 has no module _core.
+            place(own / "Data", f"{sample.ping:06}.pkl", pickle.dumps(state, 3).replace(b"cnumpy._core.", b"cnumpy.core.", 1))
+        write_json(own / "Config.json", config_of(sensor, mission))
+        if options.mesh:
+            write_mesh(own / "mesh.glb", pathlib.Path(options.mesh), dataset, mission["scene"])
+        yield f"{sensor.name}: {len(sensor)} states, {name} of {image.shape[0]} ranges x {image.shape[1]} azimuths"
+
+
+def matrix_of(pose):
+    """A pose as a matrix, float64 [4, 4]."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = pose["position_m"]
+    matrix[:3, :3] = moved(np.eye(3), pose).T - matrix[:3, 3:]
+    return matrix
+
+
+def config_of(sensor, mission):
+    """Config.json with the keys of both layouts in use: within `agents`, and at its head."""
+    own = mission["sensors"][sensor.name]
+    elevation = own["instrument"]["beam"]["elevation_width_deg"] if "instrument" in sensor.description else own["elevation_deg"]
+    (low, *_, high), azimuths = sensor.range_edges_m.tolist(), sensor.azimuth_edges_rad
+    sonar = {"Azimuth": round(float(np.degrees(np.ptp(azimuths))), 9), "Elevation": elevation, "RangeMin": low, "RangeMax": high,
+             "RangeBins": len(sensor.range_edges_m) - 1, "AzimuthBins": len(azimuths) - 1}
+    kinds = [{"sensor_type": "PoseSensor"}, {"sensor_type": "ImagingSonar", "sensor_name": sensor.name, "configuration": sonar}]
+    return {"name": mission["name"], "main_agent": "vehicle", "agents": [{"agent_name": "vehicle", "sensors": kinds}],
+            "ds_factor": 1.0, "simple_denoise": False, **sonar}     # two keys of AONeuS
+
+
+def write_mesh(path, source, dataset, scene):
+    """A .glb of the scene with its coordinates turned into those of the world: z up, in metres."""
+    data = source.read_bytes()
+    if hashlib.sha256(data).hexdigest() not in [one["sha256"] for one in dataset.description["inputs"]]:
+        raise ValueError(f"{source}: is not a file that this mission read; --mesh takes its scene.file")
+    if data[:4] != b"glTF":
+        raise ValueError(f"{source}: is not a .glb file, and --mesh takes no other")
+    size = struct.unpack_from("<I", data, 12)[0]
+    content, rest = json.loads(data[20:20 + size]), data[20 + size:]
+    unit, shown = UNITS[scene["units"]], content["scenes"][content.get("scene", 0)]
+    up = (0, 0, 1, 0, 0, -1, 0, 0) if scene["up"] == "y" else (0, 1, 0, 0, 0, 0, 1, 0)
+    content["nodes"].append({"name": "world", "children": shown["nodes"],
+                             "matrix": [unit * one for one in (1, 0, 0, 0, *up)] + [0, 0, 0, 1]})
+    shown["nodes"] = [len(content["nodes"]) - 1]
+    text = json.dumps(content).encode()
+    text += b" " * (-len(text) % 4)
+    with naming(path):
+        path.write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON") + text + rest)

@@ -1,0 +1,78 @@
+"""Files of the format MCAP (https://mcap.dev/spec), in chunks that are not compressed, with an index."""
+import collections
+import struct
+
+from . import ros2
+
+MAGIC = b"\x89MCAP0\r\n"
+HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX, STATISTICS, DATA_END = (
+    1, 2, 3, 4, 5, 6, 7, 8, 11, 15)
+CHUNK_BYTES = 1 << 22
+
+
+def record(kind, form, *values):
+    """A record: H, I and Q are numbers, s is text, b bytes, q bytes with a longer length, r bytes as they are."""
+    body = b""
+    for code, value in zip(form, values, strict=True):
+        value = value.encode() if code == "s" else value
+        length = {"s": "<I", "b": "<I", "q": "<Q"}.get(code)
+        body += struct.pack("<" + code, value) if code in "HIQ" else (struct.pack(length, len(value)) if length else b"") + value
+    return struct.pack("<BQ", kind, len(body)) + body
+
+
+def pairs(form, items):
+    return b"".join(struct.pack(form, *one) for one in items)
+
+
+class Writer:
+    """Messages of ROS 2 in the order of their times."""
+
+    def __init__(self, file):
+        self.file, self.schemas, self.channels, self.described, self.indexes = file, {}, {}, [], []
+        self.counts, self.chunk, self.times, self.ends = collections.Counter(), bytearray(), {}, []
+        self.definitions = ros2.definitions()
+        self.fields = ros2.fields_of(self.definitions)
+        file.write(MAGIC + record(HEADER, "ss", "ros2", "sonarsim"))
+
+    def write(self, topic, name, time_ns, message):
+        """Writes a message of the type `name`, such as tf2_msgs/TFMessage."""
+        if name not in self.schemas:
+            self.schemas[name] = len(self.schemas) + 1
+            self.described.append(record(SCHEMA, "Hssb", self.schemas[name], name.replace("/", "/msg/"), "ros2msg",
+                                         ros2.schema_of(name, self.definitions).encode()))
+            self.chunk += self.described[-1]
+        if topic not in self.channels:
+            self.channels[topic] = len(self.channels) + 1
+            self.described.append(record(CHANNEL, "HHssb", self.channels[topic], self.schemas[name], topic, "cdr", b""))
+            self.chunk += self.described[-1]
+        channel = self.channels[topic]
+        self.times.setdefault(channel, []).append((time_ns, len(self.chunk)))
+        data = ros2.encoded(self.fields, name, message)
+        self.chunk += record(MESSAGE, "HIQQr", channel, self.counts[channel], time_ns, time_ns, data)
+        self.counts[channel] += 1
+        if len(self.chunk) > CHUNK_BYTES:
+            self.end_chunk()
+
+    def end_chunk(self):
+        if not self.times:
+            return
+        times = [time for own in self.times.values() for time, _ in own]
+        ends, size, begin, offsets = (min(times), max(times)), len(self.chunk), self.file.tell(), []
+        self.file.write(record(CHUNK, "QQQIsq", *ends, size, 0, "", bytes(self.chunk)))
+        index_at = self.file.tell()
+        for channel, own in self.times.items():
+            offsets.append((channel, self.file.tell()))
+            self.file.write(record(MESSAGE_INDEX, "Hb", channel, pairs("<QQ", own)))
+        self.indexes.append(record(CHUNK_INDEX, "QQQQbQsQQ", *ends, begin, index_at - begin, pairs("<HQ", offsets),
+                                   self.file.tell() - index_at, "", size, size))
+        self.ends += ends
+        self.chunk, self.times = bytearray(), {}
+
+    def finish(self):
+        self.end_chunk()
+        self.file.write(record(DATA_END, "I", 0))
+        begin = self.file.tell()
+        self.file.write(b"".join(self.described) + record(
+            STATISTICS, "QHIIIIQQb", sum(self.counts.values()), len(self.schemas), len(self.channels), 0, 0, len(self.indexes),
+            self.ends[0], self.ends[-1], pairs("<HQ", self.counts.items())) + b"".join(self.indexes))
+        self.file.write(record(FOOTER, "QQI", begin, 0, 0) + MAGIC)

@@ -1,0 +1,75 @@
+"""A dataset as the recording of a robot with ROS 2: pictures, images, boxes and poses in pings.mcap."""
+import numpy as np
+
+from ..command import naming
+from ..data import middles
+from .holoocean import mission_of
+from .mcap import Writer
+
+DTYPES = {"u1": 0, "u2": 2, "f4": 8}    # numbers of marine_acoustic_msgs/SonarImageData
+WORLD, VEHICLE = "map", "base_link"
+DOWN = {"rotation": {"x": 1.0}}         # from x forward, y left, z up to x forward, y right, z down
+
+
+def write(folder, dataset, sensors, _options):
+    """pings.mcap. Frames: map, base_link, NAME (x forward, y left, z up) and NAME_frd (y right, z down), in which beams are
+    named."""
+    mission, path = mission_of(dataset), folder / "pings.mcap"
+    jobs = sorted(((sample.ping, k, sample) for k, sensor in enumerate(sensors) for sample in sensor), key=lambda job: job[:2])
+    with naming(path), open(path, "wb") as file:
+        writer, last = Writer(file), None
+        for ping, _, sample in jobs:
+            meta, name = sample["meta"], sample.sensor.name
+            time_ns = round(meta["time_s"] * 1e9)
+            stamp = dict(zip(("sec", "nanosec"), divmod(time_ns, 10**9)))
+            transforms = [transform(stamp, WORLD, name, meta["T_world_sensor"]), {
+                "header": {"stamp": stamp, "frame_id": name}, "child_frame_id": f"{name}_frd", "transform": DOWN}]
+            if ping != last:
+                transforms.append(transform(stamp, WORLD, VEHICLE, meta["T_world_vehicle"]))
+                reported = meta.get("T_world_vehicle_reported", meta["T_world_vehicle"])
+                writer.write("/odometry", "nav_msgs/Odometry", time_ns, {
+                    "header": {"stamp": stamp, "frame_id": WORLD}, "child_frame_id": VEHICLE, "pose": {"pose": {
+                        "position": dict(zip("xyz", reported["position_m"])),
+                        "orientation": dict(zip("xyzw", reported["quaternion_xyzw"]))}}})
+            last = ping
+            writer.write("/tf", "tf2_msgs/TFMessage", time_ns, {"transforms": transforms})
+            write_ping(writer, sample, time_ns, stamp, mission)
+        writer.finish()
+    yield f"pings.mcap: {sum(writer.counts.values())} messages, {', '.join(writer.channels)}"
+
+
+def transform(stamp, parent, child, pose):
+    return {"header": {"stamp": stamp, "frame_id": parent}, "child_frame_id": child, "transform": {
+        "translation": dict(zip("xyz", pose["position_m"])), "rotation": dict(zip("xyzw", pose["quaternion_xyzw"]))}}
+
+
+def write_ping(writer, sample, time_ns, stamp, mission):
+    sensor, header = sample.sensor, {"stamp": stamp, "frame_id": sample.sensor.name}
+    picture = next((name for name in ("fan", "image") if name in sensor.keys), None)
+    if picture:
+        writer.write(f"/{sensor.name}/image/compressed", "sensor_msgs/CompressedImage", time_ns, {
+            "header": header, "format": "png", "data": sensor.raw(sample.index, picture)})
+    if picture and "objects" in sensor.keys:
+        key, *axes = ("box_px", "x", "y") if picture == "fan" else ("box_bins", "beam", "range")
+        boxes = [(one, one[picture] if picture == "fan" else one) for one in sample["objects"]["objects"]]
+        writer.write(f"/{sensor.name}/objects", "vision_msgs/Detection2DArray", time_ns, {
+            "header": header, "detections": [detection(header, one, *map(box[key].get, axes)) for one, box in boxes if box]})
+    name = next((name for name in ("raw", "polar") if name in sensor.keys), None)
+    if name:
+        image, bearing = sample[name], middles(sensor.azimuth_edges_rad)
+        own, speed = mission["sensors"][sensor.name], mission["water"]["sound_speed_m_s"]
+        writer.write(f"/{sensor.name}/sonar_image", "marine_acoustic_msgs/ProjectedSonarImage", time_ns, {
+            "header": header | {"frame_id": f"{sensor.name}_frd"},
+            "ping_info": {"frequency": (own.get("instrument") or {}).get("frequency_hz", 0),
+                          "sound_speed": 0 if isinstance(speed, dict) else speed},     # a section if it depends on depth
+            "beam_directions": [{"x": x, "y": y} for x, y in zip(np.cos(bearing).tolist(), (-np.sin(bearing)).tolist())],
+            "ranges": middles(sensor.range_edges_m).tolist(),
+            "image": {"dtype": DTYPES[image.dtype.str[1:]], "beam_count": image.shape[1], "data": image.astype(
+                image.dtype.newbyteorder("<")).tobytes()}})
+
+
+def detection(header, one, across, along):
+    (left, right), (top, bottom) = across, along
+    return {"header": header, "id": one["name"], "results": [{"hypothesis": {"class_id": one["class"], "score": 1.0}}],
+            "bbox": {"center": {"position": {"x": 0.5 * (left + right), "y": 0.5 * (top + bottom)}},
+                     "size_x": right - left, "size_y": bottom - top}}

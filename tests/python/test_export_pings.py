@@ -1,0 +1,157 @@
+"""`sonarsim export --format points, holoocean, mcap`: what they write of a rendered dataset, by the rules of its readers."""
+import base64
+import json
+import pathlib
+import pickle
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import tool
+from sonarsim.data import middles, moved, open_dataset
+
+TANK = tool.ROOT / "scenes/tank.glb"
+READER = ("@mcap/core@2", "@foxglove/rosmsg@5", "@foxglove/rosmsg2-serialization@3")
+
+
+class Pings(tool.ToolTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.rendered = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="sonarsim-"))) / "out"
+        subprocess.run([tool.os.environ["SONARSIM"], "render", tool.ROOT / "tests/four_sonars.yaml", "--quiet", "--out",
+                        cls.rendered, "--set", "output.labels=[instance, class, elevation, clean, objects]"], check=True)
+        cls.dataset = open_dataset(cls.rendered)
+
+    def export(self, *words):
+        return self.succeeds("export", self.rendered, self.folder / "dest", *words)
+
+    def test_points(self):
+        text = self.export("--format", "points", "--sensor", "fls", "--sensor", "mbes")
+        self.assertRegex(text, r"points\nfls: \d+ points of 9 pings\nmbes: \d+ points of 9 pings\n")
+        fls, name = self.dataset["fls"], self.folder / "dest/fls-000003"
+        points, cloud = fls.points(fls[3]), np.load(f"{name}.npz")
+        np.testing.assert_array_equal(np.stack([cloud[axis] for axis in "xyz"], 1), points.position_m)
+        np.testing.assert_array_equal(cloud["instance"], points.instance)
+        np.testing.assert_array_equal(cloud["intensity"], fls[3]["polar"][tuple(points.bins.T)])
+        np.testing.assert_array_equal(cloud["depth_true_m"], -cloud["z"])
+        # Soundings of the floor, whose z is 0, have its instance.
+        cloud = np.load(self.folder / "dest/mbes-000003.npz")
+        floor = cloud["instance"] == {text: k for k, text in self.dataset.instances.items()}["floor"]
+        self.assertGreater(floor.sum(), 20)
+        self.assertLess(np.abs(np.median(cloud["depth_m"][floor])), 0.05)
+        self.assertEqual(len(cloud["x"]), np.isfinite(self.dataset["mbes"][3]["soundings"][:, 0]).sum())
+        shutil.rmtree(self.folder / "dest")
+        self.export("--format", "points", "--whole", "--sensor", "fls")
+        whole = np.load(self.folder / "dest/fls.npz")
+        self.assertEqual((whole["ping"] == 3).sum(), len(points.bins))
+        try:
+            import meshio   # pylint: disable=import-outside-toplevel
+        except ImportError:
+            self.skipTest("no meshio, so nobody reads the .ply")
+        mesh = meshio.read(self.folder / "dest/fls.ply")
+        np.testing.assert_array_equal(mesh.points, np.stack([whole[axis] for axis in "xyz"], 1))
+        for key in ("intensity", "class", "instance", "ping", "depth_true_m"):
+            np.testing.assert_array_equal(mesh.point_data[key], whole[key])
+
+    def test_what_neusis_loads(self):
+        """load_data.py and get_arcs() of NeuSIS: the keys, degrees and metres of Config.json, the pickles in any order, and
+        the point of a pixel (i, j) at the elevation phi. It is the one that sonarsim.data gives, within a bin."""
+        self.export("--format", "holoocean", "--sensor", "fls", "--clean", "--mesh", TANK)
+        config = json.loads((self.folder / "dest/Config.json").read_text())
+        for sensor in config["agents"][0]["sensors"]:
+            if sensor["sensor_type"] != "ImagingSonar":
+                continue
+            own = sensor["configuration"]
+            hfov, vfov = np.radians(own["Azimuth"]), np.radians(own["Elevation"])
+            r_min, r_max = own["RangeMin"], own["RangeMax"]
+        # SonarSplat takes the last sensor, others the keys at the head; AONeuS takes two more.
+        self.assertEqual(config["agents"][0]["sensors"][-1]["configuration"], {key: config[key] for key in own})
+        self.assertEqual((config["ds_factor"], config["simple_denoise"]), (1.0, False))
+        files = sorted((self.folder / "dest/Data").iterdir(), key=lambda path: int(path.stem))
+        self.assertEqual(len(files), len(self.dataset["fls"]))
+        for path, sample in zip(files, self.dataset["fls"]):
+            state = pickle.loads(path.read_bytes())
+            image, c2w = state["ImagingSonar"], state["PoseSensor"]
+            self.assertEqual((image.dtype, image.shape, c2w.shape), (np.float32, (own["RangeBins"], own["AzimuthBins"]), (4, 4)))
+            np.testing.assert_array_equal(image, sample["clean"])
+            points = sample.sensor.points(sample)
+            i, j = points.bins.T
+            theta, phi = -hfov / 2 + (j + 0.5) * hfov / image.shape[1], sample["elevation"][i, j]
+            r = (i + 0.5) * (r_max - r_min) / image.shape[0] + r_min
+            own_frame = r * np.stack([np.cos(theta) * np.cos(phi), np.sin(theta) * np.cos(phi), np.sin(phi)])
+            found = (c2w @ np.vstack([own_frame, np.ones_like(r)]))[:3].T
+            np.testing.assert_allclose(found, points.position_m, atol=1e-6)
+            self.assertLessEqual(np.abs(phi).max(), 0.5 * vfov + 5e-3)
+        data = (self.folder / "dest/mesh.glb").read_bytes()
+        size = struct.unpack_from("<I", data, 12)[0]
+        self.assertEqual(struct.unpack_from("<I", data, 8)[0], len(data))
+        mesh = json.loads(data[20:20 + size])
+        turn = np.reshape(mesh["nodes"][mesh["scenes"][0]["nodes"][0]]["matrix"], (4, 4)).T[:3, :3]
+        ends = [[one["min"], one["max"]] for one in mesh["accessors"] if "min" in one]
+        corners = np.reshape(ends, (-1, 3)) @ turn.T
+        np.testing.assert_allclose([corners.min(0), corners.max(0)], [[-4, -3, 0], [4, 3, 3]], atol=1e-6)
+
+    def test_what_npm_readers_read(self):
+        self.export("--format", "mcap", "--sensor", "fls")
+        install = ["npm", "install", "--silent", *READER]
+        if not shutil.which("npm") or subprocess.run(install, cwd=self.folder, capture_output=True, check=False).returncode:
+            self.skipTest("npm cannot install @mcap/core, so nobody reads the MCAP file")
+        shutil.copy(pathlib.Path(__file__).with_name("read_mcap.cjs"), self.folder)
+        read = json.loads(subprocess.run(["node", "read_mcap.cjs", "dest/pings.mcap"], cwd=self.folder, capture_output=True,
+                                         check=True).stdout)
+        topics, fls = {name: one["messages"] for name, one in read["topics"].items()}, self.dataset["fls"]
+        self.assertEqual(read["count"], 5 * len(fls))
+        self.assertEqual({name: one["type"] for name, one in read["topics"].items()}, {
+            "/fls/image/compressed": "sensor_msgs/msg/CompressedImage", "/fls/objects": "vision_msgs/msg/Detection2DArray",
+            "/fls/sonar_image": "marine_acoustic_msgs/msg/ProjectedSonarImage", "/odometry": "nav_msgs/msg/Odometry",
+            "/tf": "tf2_msgs/msg/TFMessage"})
+        for k, sample in enumerate(fls):
+            meta = sample["meta"]
+            picture, sonar, boxes = (topics[f"/fls/{name}"][k] for name in ("image/compressed", "sonar_image", "objects"))
+            self.assertEqual(picture["time_ns"], round(meta["time_s"] * 1e9))
+            self.assertEqual(base64.b64decode(picture["data"]), fls.raw(k, "fan"))
+            image = np.frombuffer(base64.b64decode(sonar["image"]["data"]), "<f4").reshape(-1, sonar["image"]["beam_count"])
+            np.testing.assert_array_equal(image, sample["polar"])
+            np.testing.assert_allclose(sonar["ranges"], middles(fls.range_edges_m), rtol=1e-6)
+            self.assertEqual((sonar["image"]["dtype"], sonar["ping_info"]["sound_speed"]), (8, 1480))
+            # A beam to port, y of the sonar, is to the left of x and down is z: -y of the message's frame.
+            beams = np.array([[one[axis] for axis in "xyz"] for one in sonar["beam_directions"]])
+            np.testing.assert_allclose(np.arctan2(-beams[:, 1], beams[:, 0]), middles(fls.azimuth_edges_rad))
+            tf = {one["child_frame_id"]: one["transform"] for one in topics["/tf"][k]["transforms"]}
+            pose = {"position_m": [tf["fls"]["translation"][axis] for axis in "xyz"],
+                    "quaternion_xyzw": [tf["fls"]["rotation"][axis] for axis in "xyzw"]}
+            self.assertEqual(pose, meta["T_world_sensor"])
+            down = {"position_m": [0, 0, 0], "quaternion_xyzw": [tf["fls_frd"]["rotation"][axis] for axis in "xyzw"]}
+            np.testing.assert_allclose(moved(np.eye(3), down), np.diag([1, -1, -1]))
+            odometry = topics["/odometry"][k]["pose"]["pose"]["position"]
+            self.assertEqual([odometry[axis] for axis in "xyz"], meta["T_world_vehicle"]["position_m"])
+            shown = [one for one in sample["objects"]["objects"] if one["fan"]]
+            self.assertEqual([(one["results"][0]["hypothesis"]["class_id"], one["id"], one["bbox"]["size_x"]) for one in
+                              boxes["detections"]], [(one["class"], one["name"], -int(np.subtract(*one["fan"]["box_px"]["x"])))
+                                                     for one in shown])
+        self.assertGreater(sum(len(one["detections"]) for one in topics["/fls/objects"]), 9)
+
+    def test_mistakes(self):
+        for words, text in ((("points", "--sensor", "sss"), "has no ping of an imaging or profiling sonar"),
+                            (("points", "--clean"), "--format points takes no --clean"),
+                            (("mcap", "--tile", "64"), "--format mcap takes no --tile"),
+                            (("mcap", "--sensor", "no"), "there is no 'no'; there are: fls"),
+                            (("holoocean", "--sensor", "mbes"), "has no imaging sonar"),
+                            (("holoocean", "--sensor", "fls", "--mesh", tool.ROOT / "README.md"),
+                             "is not a file that this mission read")):
+            self.assert_refused("export", text, self.rendered, self.folder / "dest", "--format", *words)
+        shutil.copytree(self.rendered, self.folder / "less")
+        path = self.folder / "less/dataset.json"
+        description = json.loads(path.read_text())
+        for one in description["sensors"]:
+            one["files"].pop("elevation", None)
+        path.write_text(json.dumps(description))
+        self.assert_refused("export", r"set output.labels: \[elevation, instance, class\]", self.folder / "less",
+                            self.folder / "dest", "--format", "points", "--sensor", "fls")
+
+
+if __name__ == "__main__":
+    unittest.main()
