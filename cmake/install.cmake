@@ -27,9 +27,9 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(PROGRAMS scripts/make_scenes.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
-install(FILES scripts/sweep.mk
+install(FILES scripts/sweep.mk scripts/shards.mk
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
-install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
+install(DIRECTORY scripts/slurm scripts/kubernetes scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
         USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)
 # The motorbike's mesh comes from another package, so its mission stays in the checkout.
 install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program

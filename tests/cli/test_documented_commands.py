@@ -19,7 +19,7 @@ PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 # How a command begins: variables, then a script of the repository or a program.
 BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
                     (?:\./|\.ci/|scripts/|build/|for\ \w+\ in\ [^:;]*;\ do|
-                    (?:sonarsim|/usr/bin/python3|make|parallel|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
+                    (?:sonarsim|/usr/bin/python3|make|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
 
 NOT_RUN = {
     "./scripts/test.sh": "runs this test",
@@ -28,8 +28,6 @@ NOT_RUN = {
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
         "needs Slurm; test_scripts.py runs it with a stand-in",
-    "parallel sonarsim render mission.yaml --threads 1 --shard {}/4 --out part{} ::: $(seq 4)":
-        "needs GNU parallel",
 }
 PYTHON = python_with("matplotlib")
 PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE", "")

@@ -9,6 +9,7 @@ import pathlib
 import re
 import shutil
 import sys
+import textwrap
 import unittest
 
 import slurm_node
@@ -148,6 +149,21 @@ class Clusters(Sandbox):
         failed = self.folder / "failed"
         failed.mkdir()
         self.check_scripts({**os.environ, "SLURM_FAILED": str(failed), "PATH": f"{self.folder}/bin:{os.environ['PATH']}"})
+
+    def test_make_and_kubernetes(self):
+        """The bytes of a single run; the commands of the Jobs run here, one index after the other."""
+        environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
+        self.run_program("make", "-f", ROOT / "scripts/shards.mk", "-j2", "N=3", f"SONARSIM={SONARSIM}", "MISSION=mission.yaml",
+                         "OUT=all", env=environment)
+        self.assertEqual(digest(self.folder / "all"), self.whole)
+        self.write("bin/sonarsim", f'#!/bin/sh\nexec "{SONARSIM}" "$@"\n').chmod(0o755)
+        environment |= {"PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SHARDS": "2", "MISSION": "mission.yaml", "OUT": "big"}
+        for name, indices in (("shards", (1, 0)), ("merge", ("",))):
+            text = (ROOT / f"scripts/kubernetes/{name}.yaml").read_text()
+            command = textwrap.dedent(re.search(r"- \|\n((?: {14}.*\n)+)", text)[1])
+            for index in indices:
+                self.run_program("/bin/sh", "-c", command, env={**environment, "JOB_COMPLETION_INDEX": str(index)})
+        self.assertEqual(digest(self.folder / "big"), self.whole)
 
     def test_shards_by_the_task_of_an_array(self):
         def in_array(task, count, first=1, last=None):
