@@ -232,7 +232,7 @@ class RecordingTest(tool.ToolTest):
         with unittest.mock.patch.object(dataset, "MOST_VALUES", 11), self.assertRaisesRegex(RecordingError, "take fewer pings"):
             self.dataset("imaging", polar, **files)
         (self.folder / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
-        with self.assertRaisesRegex(RecordingError, "ping 1"):
+        with self.assertRaisesRegex(RecordingError, "polar/000001.npy: "):
             self.dataset("imaging", {}, **files)
 
     def test_recording_yaml(self):

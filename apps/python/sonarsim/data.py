@@ -210,11 +210,10 @@ class Sensor:
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
-        data = self.raw(index, name)
-        suffix = pathlib.PurePath(self._files[name]).suffix
-        if suffix not in DECODERS:
-            raise Damage(f"sensor {self.name!r} has {self._files[name]!r}, which this cannot read")
-        return DECODERS[suffix](data)
+        with reading(self.file(index, name)) as path:
+            if path.suffix not in DECODERS:
+                raise Damage("is of a kind that this cannot read")
+            return DECODERS[path.suffix](path.read_bytes())
 
     def fan_shape(self, width):
         """(height, width, metres per pixel) of a fan that is `width` pixels wide."""

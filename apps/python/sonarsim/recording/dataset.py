@@ -57,8 +57,7 @@ def read_images(folder, sensor, name, pings):
     shape, images = (len(sensor.range_edges_m) - 1, len(sensor.azimuth_edges_rad) - 1), []
     require(folder, sensor, min(shape) > 0, pings * shape[0] * shape[1])
     for k in range(pings):
-        with data.reading(f"{folder}/{sensor.name}/{name}: ping {k}"):
-            images.append(np.asarray(sensor.read(k, name), np.float32))
+        images.append(np.asarray(sensor.read(k, name), np.float32))
         require(folder, sensor, images[-1].shape == shape)
     return np.array(images)
 
