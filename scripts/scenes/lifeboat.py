@@ -23,8 +23,7 @@ def thwarts():
     part = Part("thwarts", "steel")
     for k in range(5):
         u = -0.6 + 0.28 * k
-        breadth = 2 * half_breadth(u, 0.7)
-        add_box(part, (LENGTH / 2 * u, 0.0, 0.75 * DEPTH), (0.22, breadth, 0.03))
+        add_box(part, (LENGTH / 2 * u, 0.0, 0.75 * DEPTH), (0.22, 2 * half_breadth(u, 0.7), 0.03))
         for side in (-1, 1):
             add_cylinder(part, (LENGTH / 2 * u, 0.4 * side, 0.05),
                          (LENGTH / 2 * u, 0.4 * side, 0.75 * DEPTH), 0.02, 6)

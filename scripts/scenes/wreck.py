@@ -45,13 +45,10 @@ def plating():
 
 def ribs():
     part = Part("ribs", "steel")
-    steps = 10
     for k in range(1, 24):
         u = 2 * k / 24 - 1
         for side in (-1, 1):
-            points = [hull_point(u, (j + 0.2) / (steps + 0.2), side, 0.08)
-                      for j in range(steps + 1)]
-            add_line(part, points, 0.07, 6)
+            add_line(part, [hull_point(u, (j + 0.2) / 10.2, side, 0.08) for j in range(11)], 0.07, 6)
         if k % 3:
             add_cylinder(part, hull_point(u, 0.96, -1, 0.08), hull_point(u, 0.96, 1, 0.08), 0.08, 8)
     return part

@@ -214,9 +214,9 @@ class HuggingFace(Format):
         write(self.folder / "README.md", CARD.format(
             licence=self.options.licence, mission=self.info["description"], version=self.info["version"],
             seed=self.info["seed"], pictures=sum(map(len, self.parts.values())), classes=classes))
-        files = sorted(path for path in self.folder.rglob("*") if path.is_file())
-        write(self.folder / "SHA256SUMS", "".join(f"{hashlib.sha256(path.read_bytes()).hexdigest()}  "
-                                                  f"{path.relative_to(self.folder)}\n" for path in files))
+        write(self.folder / "SHA256SUMS", "".join(
+            f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(self.folder)}\n"
+            for path in sorted(self.folder.rglob("*")) if path.is_file()))
 
 
 class Crops(Format):

@@ -37,7 +37,7 @@ def write(folder, dataset, sensors, options):
                             f"{'labels: [clean]' if options.clean else name + ': true'} and render it again")
         for sample in sensor:
             image = sample[name]
-            full = np.iinfo(image.dtype).max if image.dtype.kind == "u" else 1.0
+            full = 2.0 ** mission["sensors"][sensor.name]["instrument"]["receiver"]["bits"] - 1 if name == "raw" else 1.0
             state = {"ImagingSonar": (image / full).astype(np.float32), "PoseSensor": matrix_of(sample["meta"]["T_world_sensor"])}
             # numpy 1 has no module _core.
             place(own / "Data", f"{sample.ping:06}.pkl", pickle.dumps(state, 3).replace(b"cnumpy._core.", b"cnumpy.core.", 1))

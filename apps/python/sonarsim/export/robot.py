@@ -1,4 +1,6 @@
 """A dataset as the recording of a robot with ROS 2: pictures, images, boxes and poses in pings.mcap."""
+import re
+
 import numpy as np
 
 from ..command import naming
@@ -19,8 +21,10 @@ def write(folder, dataset, sensors, _options):
     with naming(path), open(path, "wb") as file:
         writer, last = Writer(file), None
         for ping, _, sample in jobs:
-            meta, name = sample["meta"], sample.sensor.name
+            meta, name = sample["meta"], re.sub(r"\W", "_", sample.sensor.name, flags=re.ASCII)     # as ROS has them
             time_ns = round(meta["time_s"] * 1e9)
+            if not 0 <= time_ns < 2**31 * 10**9:
+                raise ValueError(f"{dataset.folder}: has pings before 1970 or after 2038, which ROS does not know")
             stamp = dict(zip(("sec", "nanosec"), divmod(time_ns, 10**9)))
             transforms = [transform(stamp, WORLD, name, meta["T_world_sensor"]), {
                 "header": {"stamp": stamp, "frame_id": name}, "child_frame_id": f"{name}_frd", "transform": DOWN}]
@@ -33,7 +37,7 @@ def write(folder, dataset, sensors, _options):
                         "orientation": dict(zip("xyzw", reported["quaternion_xyzw"]))}}})
             last = ping
             writer.write("/tf", "tf2_msgs/TFMessage", time_ns, {"transforms": transforms})
-            write_ping(writer, sample, time_ns, stamp, mission)
+            write_ping(writer, name, sample, time_ns, stamp, mission)
         writer.finish()
     yield f"pings.mcap: {sum(writer.counts.values())} messages, {', '.join(writer.channels)}"
 
@@ -43,23 +47,23 @@ def transform(stamp, parent, child, pose):
         "translation": dict(zip("xyz", pose["position_m"])), "rotation": dict(zip("xyzw", pose["quaternion_xyzw"]))}}
 
 
-def write_ping(writer, sample, time_ns, stamp, mission):
-    sensor, header = sample.sensor, {"stamp": stamp, "frame_id": sample.sensor.name}
+def write_ping(writer, frame, sample, time_ns, stamp, mission):
+    sensor, header = sample.sensor, {"stamp": stamp, "frame_id": frame}
     picture = next((name for name in ("fan", "image") if name in sensor.keys), None)
     if picture:
-        writer.write(f"/{sensor.name}/image/compressed", "sensor_msgs/CompressedImage", time_ns, {
+        writer.write(f"/{frame}/image/compressed", "sensor_msgs/CompressedImage", time_ns, {
             "header": header, "format": "png", "data": sensor.raw(sample.index, picture)})
     if picture and "objects" in sensor.keys:
         key, *axes = ("box_px", "x", "y") if picture == "fan" else ("box_bins", "beam", "range")
         boxes = [(one, one[picture] if picture == "fan" else one) for one in sample["objects"]["objects"]]
-        writer.write(f"/{sensor.name}/objects", "vision_msgs/Detection2DArray", time_ns, {
+        writer.write(f"/{frame}/objects", "vision_msgs/Detection2DArray", time_ns, {
             "header": header, "detections": [detection(header, one, *map(box[key].get, axes)) for one, box in boxes if box]})
     name = next((name for name in ("raw", "polar") if name in sensor.keys), None)
     if name:
         image, bearing = sample[name], middles(sensor.azimuth_edges_rad)
         own, speed = mission["sensors"][sensor.name], mission["water"]["sound_speed_m_s"]
-        writer.write(f"/{sensor.name}/sonar_image", "marine_acoustic_msgs/ProjectedSonarImage", time_ns, {
-            "header": header | {"frame_id": f"{sensor.name}_frd"},
+        writer.write(f"/{frame}/sonar_image", "marine_acoustic_msgs/ProjectedSonarImage", time_ns, {
+            "header": header | {"frame_id": f"{frame}_frd"},
             "ping_info": {"frequency": (own.get("instrument") or {}).get("frequency_hz", 0),
                           "sound_speed": 0 if isinstance(speed, dict) else speed},     # a section if it depends on depth
             "beam_directions": [{"x": x, "y": y} for x, y in zip(np.cos(bearing).tolist(), (-np.sin(bearing)).tolist())],
@@ -69,7 +73,6 @@ def write_ping(writer, sample, time_ns, stamp, mission):
 
 
 def detection(header, one, across, along):
-    (left, right), (top, bottom) = across, along
     return {"header": header, "id": one["name"], "results": [{"hypothesis": {"class_id": one["class"], "score": 1.0}}],
-            "bbox": {"center": {"position": {"x": 0.5 * (left + right), "y": 0.5 * (top + bottom)}},
-                     "size_x": right - left, "size_y": bottom - top}}
+            "bbox": {"center": {"position": {"x": 0.5 * sum(across), "y": 0.5 * sum(along)}},
+                     "size_x": across[1] - across[0], "size_y": along[1] - along[0]}}
