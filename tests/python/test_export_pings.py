@@ -117,15 +117,15 @@ class Pings(tool.ToolTest):
             np.testing.assert_array_equal(image, sample["polar"])
             np.testing.assert_allclose(sonar["ranges"], middles(fls.range_edges_m), rtol=1e-6)
             self.assertEqual((sonar["image"]["dtype"], sonar["ping_info"]["sound_speed"]), (8, 1480))
-            # A beam to port, y of the sonar, is to the left of x and down is z: -y of the message's frame.
-            beams = np.array([[one[axis] for axis in "xyz"] for one in sonar["beam_directions"]])
-            np.testing.assert_allclose(np.arctan2(-beams[:, 1], beams[:, 0]), middles(fls.azimuth_edges_rad))
             tf = {one["child_frame_id"]: one["transform"] for one in topics["/tf"][k]["transforms"]}
             pose = {"position_m": [tf["fls"]["translation"][axis] for axis in "xyz"],
                     "quaternion_xyzw": [tf["fls"]["rotation"][axis] for axis in "xyzw"]}
             self.assertEqual(pose, meta["T_world_sensor"])
-            down = {"position_m": [0, 0, 0], "quaternion_xyzw": [tf["fls_frd"]["rotation"][axis] for axis in "xyzw"]}
-            np.testing.assert_allclose(moved(np.eye(3), down), np.diag([1, -1, -1]))
+            # Beams of the frame fls_fan, turned into that of the sonar: azimuths are positive to port.
+            beams = np.array([[one[axis] for axis in "xyz"] for one in sonar["beam_directions"]])
+            fan = {"position_m": [0, 0, 0], "quaternion_xyzw": [tf["fls_fan"]["rotation"][axis] for axis in "xyzw"]}
+            azimuth = middles(fls.azimuth_edges_rad)
+            np.testing.assert_allclose(moved(beams, fan), np.stack([np.cos(azimuth), np.sin(azimuth), 0 * azimuth], 1), atol=1e-12)
             odometry = topics["/odometry"][k]["pose"]["pose"]["position"]
             self.assertEqual([odometry[axis] for axis in "xyz"], meta["T_world_vehicle"]["position_m"])
             shown = [one for one in sample["objects"]["objects"] if one["fan"]]

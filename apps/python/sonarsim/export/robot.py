@@ -10,12 +10,11 @@ from .mcap import Writer
 
 DTYPES = {"u1": 0, "u2": 2, "f4": 8}    # numbers of marine_acoustic_msgs/SonarImageData
 WORLD, VEHICLE = "map", "base_link"
-DOWN = {"rotation": {"x": 1.0}}         # from x forward, y left, z up to x forward, y right, z down
+FAN = {"rotation": {"x": 0.5**0.5, "z": 0.5**0.5}}      # marine_acoustic_msgs: x up, y to starboard, z forward
 
 
 def write(folder, dataset, sensors, _options):
-    """pings.mcap. Frames: map, base_link, NAME (x forward, y left, z up) and NAME_frd (y right, z down), in which beams are
-    named."""
+    """pings.mcap. Frames: map, base_link, NAME (x forward, y left, z up) and NAME_fan, in which beams are named."""
     mission, path = mission_of(dataset), folder / "pings.mcap"
     jobs = sorted(((sample.ping, k, sample) for k, sensor in enumerate(sensors) for sample in sensor), key=lambda job: job[:2])
     with naming(path), open(path, "wb") as file:
@@ -27,7 +26,7 @@ def write(folder, dataset, sensors, _options):
                 raise ValueError(f"{dataset.folder}: has pings before 1970 or after 2038, which ROS does not know")
             stamp = dict(zip(("sec", "nanosec"), divmod(time_ns, 10**9)))
             transforms = [transform(stamp, WORLD, name, meta["T_world_sensor"]), {
-                "header": {"stamp": stamp, "frame_id": name}, "child_frame_id": f"{name}_frd", "transform": DOWN}]
+                "header": {"stamp": stamp, "frame_id": name}, "child_frame_id": f"{name}_fan", "transform": FAN}]
             if ping != last:
                 transforms.append(transform(stamp, WORLD, VEHICLE, meta["T_world_vehicle"]))
                 reported = meta.get("T_world_vehicle_reported", meta["T_world_vehicle"])
@@ -63,10 +62,10 @@ def write_ping(writer, frame, sample, time_ns, stamp, mission):
         image, bearing = sample[name], middles(sensor.azimuth_edges_rad)
         own, speed = mission["sensors"][sensor.name], mission["water"]["sound_speed_m_s"]
         writer.write(f"/{frame}/sonar_image", "marine_acoustic_msgs/ProjectedSonarImage", time_ns, {
-            "header": header | {"frame_id": f"{frame}_frd"},
+            "header": header | {"frame_id": f"{frame}_fan"},
             "ping_info": {"frequency": (own.get("instrument") or {}).get("frequency_hz", 0),
                           "sound_speed": 0 if isinstance(speed, dict) else speed},     # a section if it depends on depth
-            "beam_directions": [{"x": x, "y": y} for x, y in zip(np.cos(bearing).tolist(), (-np.sin(bearing)).tolist())],
+            "beam_directions": [{"y": y, "z": z} for y, z in zip((-np.sin(bearing)).tolist(), np.cos(bearing).tolist())],
             "ranges": middles(sensor.range_edges_m).tolist(),
             "image": {"dtype": DTYPES[image.dtype.str[1:]], "beam_count": image.shape[1], "data": image.astype(
                 image.dtype.newbyteorder("<")).tobytes()}})
