@@ -26,7 +26,7 @@ struct PythonTool {
 
 constexpr std::array python_tools{
     PythonTool{"Use", "export",
-               "Writes the pictures and labels of datasets in the layout of a trainer"},
+               "Writes datasets in the layouts of trainers, robots and reconstruction"},
     PythonTool{"Look", "gallery",
                "Writes a page for a browser that shows a dataset and its labels"},
     PythonTool{"Check", "compare",

@@ -260,7 +260,8 @@ class Export(tool.ToolTest):
         for part, pings in (("train", range(5)), ("test", range(5, PINGS))):
             folder = self.dest / "data" / part
             rows = [json.loads(line) for line in (folder / "metadata.jsonl").read_text().splitlines()]
-            self.assertEqual([row["file_name"] for row in rows], [f"fls-{ping:06}.png" for ping in pings])
+            self.assertEqual([(row["image_id"], row["file_name"]) for row in rows],
+                             [(k, f"fls-{ping:06}.png") for k, ping in enumerate(pings)])
             for row in rows:
                 with Image.open(folder / row["file_name"]) as picture:
                     self.assertEqual(picture.size, (row["width"], row["height"]))

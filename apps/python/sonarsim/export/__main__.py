@@ -41,8 +41,8 @@ def tile(text):
 
 
 def parse(arguments):
-    parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes the pictures and objects of "
-                    "datasets as a folder that a trainer opens.")
+    parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes datasets in the layouts of "
+                    "trainers, robots and reconstruction.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
     add("--format", required=True, choices=[*formats.KINDS, *pings.KINDS], help="the layout")

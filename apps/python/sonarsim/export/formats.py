@@ -202,10 +202,11 @@ class HuggingFace(Format):
 
     def add(self, piece):
         self.place_picture(piece, "data")
-        row = {"file_name": f"{piece.name}.png", "width": piece.width, "height": piece.height, "objects": {
+        rows = self.parts.setdefault(piece.part, [])
+        row = {"file_name": f"{piece.name}.png", "image_id": len(rows), "width": piece.width, "height": piece.height, "objects": {
             "bbox": [bbox(one["box"]) for one in piece.objects], "category": [one["class"] - 1 for one in piece.objects],
             "id": [one["id"] for one in piece.objects], "area": [one["area"] for one in piece.objects]}}
-        self.parts.setdefault(piece.part, []).append(json.dumps(row) + "\n")
+        rows.append(json.dumps(row) + "\n")
 
     def finish(self):
         for part, rows in self.parts.items():
