@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the example scenes as .glb files, one as an .obj, one as a GeoTIFF:
+"""Writes the example scenes as .glb files, maps as GeoTIFF and PNG:
     ./scripts/make_scenes.py [name ...] [--out DIR]
 
 tank      a concrete tank, 8 x 6 x 3 m, with a few objects (the default; scenes/tank.glb)
@@ -8,7 +8,6 @@ wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
 close_bottom  a rough bottom half a metre below a sonar; besides it close_bottom_surface and
           close_bottom_flocs, which move
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
-anchor    an anchor as an OBJ in millimetres with z up
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
           GeoTIFF
@@ -28,10 +27,9 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
+from scenes import bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named, stock_named
-from scenes.obj import write_obj
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GENERATED = ROOT / "scenes" / "generated"
@@ -46,7 +44,6 @@ def builders(cells: int, area: float) -> dict:
         "wreck": {"wreck.glb": wreck.build},
         "close_bottom": {"close_bottom.glb": close_bottom.build, **close_bottom.OBJECTS},
         "lifeboat": {"lifeboat.glb": lifeboat.build},
-        "anchor": {"anchor.obj": anchor.build},
         "bathymetry": {"bathymetry.tif": bathymetry.build},
         "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
         "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},
@@ -57,7 +54,7 @@ def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
     """Writes the format that the ending of `name` asks for. Returns what the file holds."""
     pixel_m = sediments.MOSAIC_PIXEL_M if name.stem == "backscatter" else bathymetry.PIXEL_M
     writers = {".png": sediments.write_png, ".tif": lambda path, rows: bathymetry.write_geotiff(path, rows, pixel_m),
-               ".obj": write_obj, ".glb": write_glb}
+               ".glb": write_glb}
     size = writers[name.suffix](file, parts)
     if name.suffix in (".tif", ".png"):
         return f"{len(parts[0])} x {len(parts)} pixels, {size} bytes"

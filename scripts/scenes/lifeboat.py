@@ -13,9 +13,7 @@ def half_breadth(u, v):
 
 
 def hull_point(u, v, side, inset=0.0):
-    sheer = 0.35 * u * u
-    return (LENGTH / 2 * u, side * max(0.0, half_breadth(u, v) - inset),
-            DEPTH * v + sheer * v)
+    return LENGTH / 2 * u, side * max(0.0, half_breadth(u, v) - inset), DEPTH * v + 0.35 * u * u * v
 
 
 def thwarts():

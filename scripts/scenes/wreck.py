@@ -21,8 +21,7 @@ def bottom(relief):
 
 def half_breadth(u, v):
     """A point of the hull at u along it (-1 stern, 1 bow) and v up it (0 keel, 1 deck), in metres."""
-    along = max(0.0, 1 - abs(u) ** (3.5 if u < 0 else 2.2))
-    return BEAM / 2 * along * min(1.0, v) ** (0.35 + 0.35 * abs(u))
+    return BEAM / 2 * max(0.0, 1 - abs(u) ** (3.5 if u < 0 else 2.2)) * min(1.0, v) ** (0.35 + 0.35 * abs(u))
 
 
 def hull_point(u, v, side, inset=0.0):

@@ -73,22 +73,22 @@ class Examples(Clone):
         (self.clone / "own.yaml").write_text(text.replace("file: ../scenes/tank.glb", """\
 file: "scenes/tank.glb"  # not scenes/generated/wreck.glb
   objects: [{name: a, file: 'scenes/generated/stock/drum_6.glb', position_m: [1, 0, 1]},
-    {name: b, file: scenes/generated/anchor.obj, units: mm, up: z, position_m: [-1, 0, 1]}]""").replace("../", ""))
+    {name: b, file: scenes/anchor.obj, units: mm, up: z, position_m: [-1, 0, 1]}]""").replace("../", ""))
         words = ("--shard", "1/60", "--out", "out/own", "own.yaml", "--set")
         result = self.render(*words, "scene.objects.0.file=scenes/generated/stock/stone_1.glb")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual({path.name for path in made.rglob("*.*")}, {"anchor.obj", "drum_6.glb", "stone_1.glb"})
+        self.assertEqual({path.name for path in made.rglob("*.*")}, {"drum_6.glb", "stone_1.glb"})
         result = self.render(*words, "scene.objects.0.file=scenes/generated/reef.glb")
         self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
         self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
-                      "scripts/make_scenes.py makes anchor.obj, ", result.stderr)
+                      "scripts/make_scenes.py makes backscatter.tif, ", result.stderr)
 
     def test_a_folder_that_cannot_be_written(self):
         """One sentence and exit code 2. A file or /proc in place of the folder stops root, too."""
         file = self.clone / "file"
         file.touch()
         for words, sentence in ((("seafloor", "--out", file), f"{file}: cannot write seafloor.glb here: File exists"),
-                                (("anchor", "--out", "/proc/none"), "/proc/none: cannot write anchor.obj here: "),
+                                (("bathymetry", "--out", "/proc/none"), "/proc/none: cannot write bathymetry.tif here: "),
                                 (("--for", file / "own.yaml"), f"{file / 'own.yaml'}: Not a directory")):
             result = subprocess.run([self.clone / "scripts/make_scenes.py", *words], text=True, capture_output=True, timeout=60,
                                     check=False)

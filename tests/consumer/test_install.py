@@ -70,8 +70,8 @@ def main(build, compiler):
         # It finds its module wherever the folders lie.
         copy = pathlib.Path(folder, "copy")
         run("cp", "-r", share, copy)
-        run("scripts/make_scenes.py", "anchor", cwd=copy)
-        assert "shackle" in run(prefix / "bin/sonarsim", "inspect", copy / "scenes/generated/anchor.obj")
+        run("scripts/make_scenes.py", "lifeboat", cwd=copy)
+        assert "rails" in run(prefix / "bin/sonarsim", "inspect", copy / "scenes/generated/lifeboat.glb")
         run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",
             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
