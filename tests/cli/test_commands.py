@@ -23,7 +23,7 @@ def lines_of(*arguments):
 HELP = lines_of("--help")
 GROUPS = {head: re.findall(r"^  ([a-z-]+)  ", HELP.split(f"\n{head}:\n")[1].split("\n\n")[0], re.MULTILINE)
           for head in ("Make", "Look", "Check", "Use", "Learn")}
-PYTHON_COMMANDS = ["export", "gallery", "compare", "calibrate", "import-holoocean"]
+PYTHON_COMMANDS = ["export", "gallery", "compare", "calibrate", "import-holoocean", "import-poses"]
 COMMANDS = [command for group in GROUPS.values() for command in group if command not in PYTHON_COMMANDS]
 
 
@@ -31,7 +31,7 @@ class Texts(Sandbox):
     maxDiff = None
 
     def test_commands(self):
-        self.assertEqual(GROUPS, {"Make": ["render", "merge", "import-holoocean"],
+        self.assertEqual(GROUPS, {"Make": ["render", "merge", "import-holoocean", "import-poses"],
                                   "Look": ["preview", "inspect", "gallery"],
                                   "Check": ["validate", "verify", "status", "report", "compare"],
                                   "Use": ["export", "calibrate"], "Learn": ["preset", "keys"]})

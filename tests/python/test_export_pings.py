@@ -134,6 +134,21 @@ class Pings(tool.ToolTest):
                                                      for one in shown])
         self.assertGreater(sum(len(one["detections"]) for one in topics["/fls/objects"]), 9)
 
+    def test_poses_of_a_robot(self):
+        """Those of an export come back as the trajectory of its dataset; the program reads the file."""
+        self.export("--format", "mcap", "--sensor", "fls")
+        bag, words = self.folder / "dest/pings.mcap", ("--out", self.folder / "robot.tum", "--topic")
+        self.assertIn("robot.tum: 9 poses", self.succeeds("import_poses", bag, *words, "/odometry"))
+        np.testing.assert_allclose(np.loadtxt(self.folder / "robot.tum"), self.dataset.poses(), rtol=1e-12)
+        self.sonarsim("validate", str(tool.ROOT / "tests/four_sonars.yaml"), "--set", f"trajectory={{file: {self.folder}/robot.tum}}")
+        data, cut = bag.read_bytes(), self.folder / "cut.mcap"
+        for content, topic, text in ((data, "/tf", "has no poses of /tf; there are /odometry"), (data[:-9], "/odometry", "not a whole"),
+                                     (data[:3000] + data[-8:], "/odometry", "is cut off or damaged"), (b"", "/odometry", "not a whole")):
+            cut.write_bytes(content)
+            done = tool.run("import_poses", cut, "--out", self.folder / "none.tum", "--topic", topic)
+            self.assertRegex(done.stderr, f"^sonarsim import-poses: [^\n]*cut.mcap: [^\n]*{text}[^\n]*\n$")
+            self.assertEqual((done.returncode, (self.folder / "none.tum").exists()), (2, False))
+
     def test_mistakes(self):
         for words, text in ((("points", "--sensor", "sss"), "has no ping of an imaging or profiling sonar"),
                             (("points", "--clean"), "--format points takes no --clean"),

@@ -4,7 +4,7 @@ import pathlib
 import runpy
 import sys
 
-IN_PYTHON = ("export", "gallery", "compare", "calibrate", "import-holoocean")
+IN_PYTHON = ("export", "gallery", "compare", "calibrate", "import-holoocean", "import-poses")
 
 
 def main():

@@ -116,12 +116,6 @@ class Dataset:
         """The poses of the vehicle, float64 [pose, 8]: t, x, y, z, qx, qy, qz, qw."""
         return np.loadtxt(self.folder / "trajectory.tum", ndmin=2)
 
-    def reported_poses(self):
-        """The poses that the navigation of the vehicle reports, as poses(); the true ones without
-        vehicle.navigation."""
-        reported = self.folder / "navigation.tum"
-        return np.loadtxt(reported, ndmin=2) if reported.exists() else self.poses()
-
 
 class Points(typing.NamedTuple):
     """Surface that a ping shows, a point for each bin of it."""

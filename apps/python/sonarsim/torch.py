@@ -67,14 +67,11 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
         # The workers share this shard: which pings it has must not depend on their number.
         share = (0, 1) if worker is None else (worker.id, worker.num_workers)
         for ping in self._load()._pings(self.sensor, self._threads, self._shard, share):
-            yield self._transform(ping) if self._transform else self._tensors(ping)
+            yield self._transform(ping) if self._transform else tuple(tensor_of(ping, name) for name in self._names)
 
     def _load(self) -> sonarsim.Mission:
         mission, set_, paths_from = self._source
         return sonarsim.load(mission, set_, paths_from=paths_from)
-
-    def _tensors(self, ping: sonarsim.Ping) -> tuple[Any, ...]:
-        return tuple(tensor_of(ping, name) for name in self._names)
 
 
 def tensor_of(ping: sonarsim.Ping, name: str) -> Any:

@@ -225,15 +225,10 @@ class Crops(Format):
 
     def add(self, piece):
         name = self.classes[piece.objects[0]["class"] - 1] if piece.objects else "background"
-        place(self.folder / piece.part / folder_of(name), f"{piece.name}.png", piece.content)
+        place(self.folder / piece.part / re.sub(r"[^A-Za-z0-9_+-]", "_", name), f"{piece.name}.png", piece.content)
 
     def finish(self):
         pass
-
-
-def folder_of(name):
-    """The name of a class as that of a folder."""
-    return re.sub(r"[^A-Za-z0-9_+-]", "_", name)
 
 
 KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops,

@@ -49,10 +49,8 @@ def write(folder, dataset, sensors, options):
 
 def matrix_of(pose):
     """A pose as a matrix, float64 [4, 4]."""
-    matrix = np.eye(4)
-    matrix[:3, 3] = pose["position_m"]
-    matrix[:3, :3] = moved(np.eye(3), pose).T - matrix[:3, 3:]
-    return matrix
+    axes = moved(np.eye(3), pose) - pose["position_m"]
+    return np.vstack([np.column_stack([axes.T, pose["position_m"]]), [0, 0, 0, 1]])
 
 
 def config_of(sensor, mission):

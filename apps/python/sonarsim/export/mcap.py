@@ -47,8 +47,9 @@ class Writer:
             self.chunk += self.described[-1]
         channel = self.channels[topic]
         self.times.setdefault(channel, []).append((time_ns, len(self.chunk)))
-        data = ros2.encoded(self.fields, name, message)
-        self.chunk += record(MESSAGE, "HIQQr", channel, self.counts[channel], time_ns, time_ns, data)
+        data = bytearray()
+        ros2.put(data, self.fields, name, message)
+        self.chunk += record(MESSAGE, "HIQQr", channel, self.counts[channel], time_ns, time_ns, b"\0\1\0\0" + data)
         self.counts[channel] += 1
         if len(self.chunk) > CHUNK_BYTES:
             self.end_chunk()

@@ -30,14 +30,8 @@ def schema_of(name, blocks):
     return RULE.join([blocks[name].rstrip()] + [f"{one}\n{blocks[one].rstrip()}" for one in needed[1:]])
 
 
-def encoded(types, name, value):
-    """The bytes of a message. Fields that `value` lacks are 0 or empty."""
-    out = bytearray()
-    put(out, types, name, value)
-    return b"\0\1\0\0" + bytes(out)
-
-
 def put(out, types, kind, value):
+    """Adds a value to the bytes of a message. Fields that it lacks are 0 or empty."""
     if kind == "string":
         text = (value or "").encode() + b"\0"
         put(out, types, "uint32", len(text))

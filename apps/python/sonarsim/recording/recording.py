@@ -107,9 +107,7 @@ class Recording:
                                    first_range_m=self.first_range_m + (ends[0].start or 0) * self.range_step_m)
 
     def part(self, pings):
-        """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
-        if self.soundings:
-            return dataclasses.replace(self, soundings=Soundings(*(of[pings] for of in vars(self.soundings).values())))
+        """The recording of some of the pings, not of soundings: a slice, or an array of their numbers or of booleans."""
         return dataclasses.replace(self, values=self.values[pings])
 
     def check(self, source):
