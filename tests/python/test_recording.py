@@ -71,7 +71,6 @@ class RecordingTest(tool.ToolTest):
         recording = self.opened("kind: soundings\nlaw: {kind: power, full_value: 0}\nsound_speed_m_s: 1500\nrate_hz: 1\n"
                                 "soundings: {range_m: range.npy, angle_rad: angle.npy, intensity: level.npy}\n")
         self.assertEqual(np.isfinite(recording.soundings.range_m).sum(axis=1).tolist(), [3, 2])
-        self.assertEqual(len(recording.part(slice(1, 2))), 1)
 
     def test_each_format(self):
         opened = {name: self.opened(yaml, FILE=content) for name, (yaml, content, _) in FORMATS.items()}
