@@ -20,7 +20,7 @@ import time
 
 from sandbox import SANITIZED, SONARSIM, box_gltf, numbers_of
 
-MISSIONS = int(os.environ.get("RANDOM_MISSIONS", "15" if SANITIZED else "60"))
+MISSIONS = int(os.environ.get("RANDOM_MISSIONS", "15" if SANITIZED else "40"))
 SEED = os.environ.get("RANDOM_SEED", "1")
 ONLY = os.environ.get("RANDOM_ONLY")
 MOST_CPU_S = 300 if SANITIZED else 60 if MISSIONS > 100 else 10
