@@ -102,7 +102,7 @@ bool is_whole(const ImageSpec& spec) {
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_2(const char* format,
+extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_3(const char* format,
                                                                     const char* file,
                                                                     SonarsimImageStart start,
                                                                     void* user, char* error,

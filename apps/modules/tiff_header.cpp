@@ -117,6 +117,8 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     constexpr int geographic = 2;      // longitudes and latitudes
     constexpr int raster_type = 1025;  // GTRasterTypeGeoKey
     constexpr int pixel_is_point = 2;
+    constexpr int projected_system = 3072;  // ProjectedCRSGeoKey
+    constexpr int user_defined = 32767;
     const auto scale = values_of<double>(tiff, 33550, TIFF_DOUBLE);
     const auto tie = values_of<double>(tiff, 33922, TIFF_DOUBLE);
     const auto matrix = values_of<double>(tiff, 34264, TIFF_DOUBLE);
@@ -129,6 +131,8 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     }
     head.has_grid = 1;
     head.in_degrees = geo_key(keys, model_type) == geographic ? 1 : 0;
+    const int system = geo_key(keys, projected_system);
+    head.epsg = system == user_defined ? 0 : static_cast<std::uint32_t>(system);
     const double unit_m = head.in_degrees != 0 ? 1.0 : metres_of_unit(keys);
     const double column = scale.data[0];
     const double row = -scale.data[1];

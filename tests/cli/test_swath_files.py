@@ -166,5 +166,32 @@ numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(
         self.assertAlmostEqual(band["mean"], -1.5, delta=0.1)
 
 
+class Maps(Gdal):
+    """Over a heightmap in UTM's zone 32, maps and pings have its coordinates, and GDAL finds its heights there."""
+
+    @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
+    def test_utm(self):
+        self.write("materials.csv", MATERIALS)
+        west, south = 505_000, 5_987_000
+        slope = "\n".join(" ".join(f"{-12 + 0.1 * column:.1f}" for column in range(60)) for row in range(60))
+        self.write("map.asc", f"ncols 60\nnrows 60\nxllcorner {west}\nyllcorner {south}\ncellsize 1\n{slope}\n")
+        self.run_program("gdal_translate", "-q", "-a_srs", "EPSG:32632", "-ot", "Float32", "map.asc", "map.tif")
+        objects = MISSION[MISSION.index("  objects:"):MISSION.index("trajectory:")]
+        self.write("mission.yaml", MISSION.replace(
+            objects, f"  heightmap: {{file: map.tif, origin_m: [{west + 20}, {south + 30}], material: Sand}}\n").replace(
+            "output:", "  mbes: {kind: profiling, azimuth_deg: 90, range_max_m: 25, range_bins: 500}\noutput:"))
+        self.assert_renders()
+        for path in ("mbes/bathymetry.tif", "sss/mosaic.tif"):
+            info = self.gdal_info(self.out / path)
+            self.assertIn('ID["EPSG",32632]', info["coordinateSystem"]["wkt"])
+            left, _, _, top, _, step = info["geoTransform"]
+            self.assertTrue(west < left < west + 60 and south < top + step < south + 60)
+        heights = [float(self.run_program("gdallocationinfo", "-valonly", "-geoloc", path, west + 25.5, south + 30.5).stdout)
+                   for path in ("map.tif", self.out / "mbes/bathymetry.tif")]
+        self.assertAlmostEqual(*heights, delta=0.1)
+        pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())[1]
+        self.assertAlmostEqual(max(pings[0]["place"]), south + 30, delta=0.01)
+
+
 if __name__ == "__main__":
     unittest.main()

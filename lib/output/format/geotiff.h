@@ -6,17 +6,17 @@
 
 namespace sonarsim {
 
-/// The place of a map in the world. Row 0 is north, column 0 west.
+/// The place of a map in the world, or in a reference system. Row 0 is north, column 0 west.
 struct MapPlace {
-    double west_m = 0.0;   ///< world x of the left edge
-    double north_m = 0.0;  ///< world y of the upper edge
+    double west_m = 0.0;   ///< x of the left edge
+    double north_m = 0.0;  ///< y of the upper edge
     double cell_m = 1.0;
+    int epsg = 0;  ///< code of the projected reference system; 0: none
 };
 
 /// Writes a map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read:
-/// float32 [rows, columns], not compressed; NaN marks unknown cells and is the nodata value. There
-/// is no reference system, since the world's frame is not georeferenced. `values` has one or more
-/// whole rows of `columns` and less than 4 GB.
+/// float32 [rows, columns], not compressed; NaN marks unknown cells and is the nodata value.
+/// `values` has one or more whole rows of `columns` and less than 4 GB.
 ///
 /// Throws std::system_error when the disk does not take the file.
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "input/mission/files.h"
 #include "input/scene/gltf/load.h"
+#include "input/scene/images/read_image.h"
 #include "input/scene/maps/ground_maps.h"
 #include "input/trajectory/files.h"
 #include "simulate/assembly/background.h"
@@ -254,6 +255,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     find_poses(mission, parts.bottom.get(), assembly);
     // 4. Maps of the ground, which replace materials.
     apply_ground_maps(mission.scene, materials, water, scene);
+    if (mission.scene.heightmap) assembly.epsg = epsg_of(mission.scene.heightmap->file);
     for (std::string& warning : parts.orientation_warnings)
         scene.warnings.push_back(std::move(warning));
     assembly.motions = std::move(parts.motions);

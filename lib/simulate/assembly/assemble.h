@@ -31,6 +31,7 @@ struct Assembly {
     std::vector<Trajectory> motions;       ///< motions of Scene::bodies, over all of `trajectory`
     std::shared_ptr<const Bottom> bottom;  ///< reference of the label `height`; null: none
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
+    int epsg = 0;                          ///< reference system of scene.heightmap; 0: none
     std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
     std::vector<InputFile> inputs;         ///< the files that the mission names, each once
     std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar

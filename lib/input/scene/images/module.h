@@ -18,6 +18,7 @@ struct SonarsimImageHead {
     /// first pixel, and the steps from one column and from one row to the next.
     std::uint32_t has_grid;
     std::uint32_t in_degrees;
+    std::uint32_t epsg;  ///< code of the projected reference system; 0: none
     double grid[4];
     char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none
 };
@@ -37,6 +38,6 @@ using SonarsimReadImage = int (*)(const char* format, const char* file, Sonarsim
 namespace sonarsim {
 
 /// The number rises with every change above, so that a module of another version is not used.
-inline constexpr const char* image_module_symbol = "sonarsim_read_image_2";
+inline constexpr const char* image_module_symbol = "sonarsim_read_image_3";
 
 }  // namespace sonarsim

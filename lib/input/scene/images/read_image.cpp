@@ -66,23 +66,34 @@ float* make_room(void* user, const SonarsimImageHead* head) {
     return reading.image.values.data();
 }
 
-/// Reads the pixels and the head of a file.
-Reading read_file_with_module(const std::filesystem::path& path, const std::string& format,
-                              const Location& where) {
+/// Keeps the head of an image alone.
+float* make_no_room(void* user, const SonarsimImageHead* head) {
+    static_cast<Reading*>(user)->head = *head;
+    return nullptr;
+}
+
+Reading read_with_module(const std::filesystem::path& path, const std::string& format,
+                         const Location& where, SonarsimImageStart start) {
     std::array<char, 400> error{};
     Reading reading{};
     std::string reason;
     try {
         const auto read = reinterpret_cast<SonarsimReadImage>(
             module_symbol(image_module, image_module_symbol, image_package));
-        if (read(format.c_str(), path.c_str(), &make_room, &reading, error.data(), error.size()) !=
-            0)
+        if (read(format.c_str(), path.c_str(), start, &reading, error.data(), error.size()) != 0)
             reason = error.data();
     } catch (const InputError& fault) {
         reason = fault.what();
     }
     std::ranges::replace(reason, '\n', ' ');
     if (!reason.empty()) throw InputError(where, "cannot be read: " + printable(reason));
+    return reading;
+}
+
+/// Reads the pixels and the head of a file.
+Reading read_pixels(const std::filesystem::path& path, const std::string& format,
+                    const Location& where) {
+    Reading reading = read_with_module(path, format, where, &make_room);
     if (!reading.image.values.empty()) return reading;
     throw InputError(where,
                      "has " + std::to_string(reading.head.width) + " x " +
@@ -150,7 +161,7 @@ Image read_image(const std::filesystem::path& path) {
         throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
                                     "; PNG, TIFF and OpenEXR are read");
     }
-    Reading reading = read_file_with_module(path, format, where);
+    Reading reading = read_pixels(path, format, where);
     const SonarsimImageHead& head = reading.head;
     Image& image = reading.image;
     image.width = static_cast<int>(head.width);
@@ -161,6 +172,14 @@ Image read_image(const std::filesystem::path& path) {
     set_reference(head, path, where, image);
     mark_unknown(head, where, image);
     return std::move(image);
+}
+
+int epsg_of(const std::filesystem::path& path) {
+    const Location where{path.string()};
+    require_readable(path, where);
+    const std::string format = image_format(first_bytes(path));
+    if (format != "tiff") return 0;
+    return static_cast<int>(read_with_module(path, format, where, &make_no_room).head.epsg);
 }
 
 }  // namespace sonarsim

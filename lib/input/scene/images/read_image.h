@@ -16,4 +16,8 @@ bool is_image_file(const std::filesystem::path& path);
 /// read wrongly, and without OpenImageIO.
 Image read_image(const std::filesystem::path& path);
 
+/// The EPSG code of the projected reference system of a GeoTIFF; 0 if it names none, or for another
+/// image. InputError as above.
+int epsg_of(const std::filesystem::path& path);
+
 }  // namespace sonarsim

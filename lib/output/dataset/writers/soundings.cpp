@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/file.h"
 #include "output/dataset/json.h"
+#include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "simulate/product/bathymetry.h"
@@ -55,15 +56,16 @@ bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
 }
 
-nlohmann::ordered_json georeference(const Bathymetry& grid, std::uint64_t used,
-                                    std::uint64_t left_out) {
+nlohmann::ordered_json georeference(const Bathymetry& grid, const MapPlace& place,
+                                    std::uint64_t used, std::uint64_t left_out) {
     return {{"file", "bathymetry.tif"},
             {"values", "mean world z of the soundings in a cell, m; NaN where there are none"},
             {"rows", grid.rows},
             {"columns", grid.columns},
             {"cell_m", grid.cell_m},
-            {"west_m", grid.west_m},
-            {"north_m", grid.north_m},
+            {"west_m", place.west_m},
+            {"north_m", place.north_m},
+            {"epsg", place.epsg},
             {"axes",
              "row 0 is north (greatest y), column 0 west (least x): cell (row, column) is centred "
              "at x = west_m + (column + 0.5) cell_m, y = north_m - (row + 0.5) cell_m"},
@@ -119,7 +121,8 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.finish();
 }
 
-void write_bathymetry(const SoundingSource& source, const std::filesystem::path& folder) {
+void write_bathymetry(const WriterContext& context, const SoundingSource& source,
+                      const std::filesystem::path& folder) {
     SoundingBounds bounds;
     std::uint64_t left_out = 0;
     for_each_sounding(source, [&](const RecordedSounding& s) {
@@ -133,9 +136,10 @@ void write_bathymetry(const SoundingSource& source, const std::filesystem::path&
     std::vector<float> z = grid.mean_z();
     if (z.empty()) z.push_back(std::nanf(""));
     const int columns = std::max(grid.columns, 1);
-    write_geotiff(folder / "bathymetry.tif", z, columns,
-                  {grid.west_m, grid.north_m, grid.cell_m > 0.0 ? grid.cell_m : 1.0});
-    write_file(folder / "bathymetry.json", json_text(georeference(grid, bounds.count, left_out)));
+    const MapPlace place = map_place(context, grid);
+    write_geotiff(folder / "bathymetry.tif", z, columns, place);
+    write_file(folder / "bathymetry.json",
+               json_text(georeference(grid, place, bounds.count, left_out)));
     const Picture picture = draw_bathymetry(grid);
     write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }
@@ -166,7 +170,7 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
         const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
                                     context.assembly.trajectory};
         write_soundings(source, folder);
-        write_bathymetry(source, folder);
+        write_bathymetry(context, source, folder);
     };
     PingRecord record;
     record.file = "soundings.npy";

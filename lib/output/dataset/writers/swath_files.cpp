@@ -10,6 +10,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "output/dataset/json.h"
+#include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "output/format/xtf.h"
@@ -60,10 +61,11 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
     const Rpy attitude = body_attitude(row.T_world_sensor);
     const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
     const Eigen::Vector3d& position = row.T_world_sensor.translation;
+    const Eigen::Vector2d on_map = map_origin(context.mission) + position.head<2>();
     return {.number = static_cast<std::uint32_t>(row.pose),
             .t_s = trajectory[row.pose].t_s,
-            .x_m = position.x(),
-            .y_m = position.y(),
+            .x_m = on_map.x(),
+            .y_m = on_map.y(),
             .depth_m = -position.z(),
             .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
             .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
@@ -129,16 +131,17 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
     std::vector<float> echoes = map.mean_z();
     if (echoes.empty()) echoes.push_back(std::nanf(""));
-    write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1),
-                  {map.west_m, map.north_m, map.cell_m > 0.0 ? map.cell_m : 1.0});
+    const MapPlace place = map_place(context, map);
+    write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1), place);
     const nlohmann::ordered_json json{
         {"file", "mosaic.tif"},
         {"values", "mean echo of the pings over a cell; NaN where there are none"},
         {"rows", map.rows},
         {"columns", map.columns},
         {"cell_m", map.cell_m},
-        {"west_m", map.west_m},
-        {"north_m", map.north_m},
+        {"west_m", place.west_m},
+        {"north_m", place.north_m},
+        {"epsg", place.epsg},
         {"ground", "level, at the first return of each ping"},
         {"pings", rows.records() - dark},
         {"pings_left_out", dark}};
