@@ -44,7 +44,7 @@ sensors:
   fls: {kind: imaging, azimuth_deg: 40, elevation_deg: 15, range_min_m: 0.8, range_max_m: 3, range_bins: 300,
         azimuth_bins: 64, multipath: {method: cluster}, model: calibrated, instrument: {frequency_hz: 1.0e+6}}
 output: {folder: out, labels: [instance, objects]}
-labels: {background: [floor], mask: silhouette}
+labels: {background: [floor]}
 """
 
 
@@ -212,19 +212,6 @@ class Objects(Sandbox):
         return {key: mask_of(one["mask"], *((48, 70) if key[0] == "fls" else (92, 6))) for key, one in found.items()
                 if "pillar" in one["name"]}
 
-    def test_silhouettes_lie_in_the_echo_and_have_shadows(self):
-        self.edit("mission.yaml", "background: [none]", "background: [auto]")
-        echo = self.masks_of("echo")
-        drawn = self.masks_of("silhouette")
-        self.assertTrue(drawn)
-        self.assertLessEqual(set(drawn), set(echo))
-        for key, mask in drawn.items():
-            self.assertGreater((mask & echo[key]).sum(), 0.8 * mask.sum(), key)
-        whole = self.masks_of("silhouette+shadow")
-        self.assertEqual(set(whole), set(drawn))
-        self.assertFalse(any((drawn[key] & ~mask).any() for key, mask in whole.items()))
-        self.assertTrue(any(mask.sum() > drawn[key].sum() for key, mask in whole.items() if key[0] == "fls"))
-
     def test_outlines_are_those_of_the_bodies_in_view(self):
         """Against rays through a z-buffer of points on the bodies, closed and filled as a person draws."""
         bodies = {"ball": (sphere(0.12), (1.5, 0.5, 0.1)), "tyre": (torus(0.25, 0.08), (1.6, -0.35, -0.3)),
@@ -277,6 +264,7 @@ class Objects(Sandbox):
         for old, new, *fragments in (
                 (labels, "labels: {background: [wals]}\n", "there is no class 'wals' (did you mean 'walls'?)"),
                 (labels, "labels: {background: []}\n", "'background' names classes, auto or none"),
+                (labels, "labels: {mask: silhouette}\n", "unknown mask 'silhouette'", "outline, echo"),
                 ("labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true")):
             self.write("mission.yaml", MISSION)
             self.edit("mission.yaml", old, new)

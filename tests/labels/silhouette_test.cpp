@@ -36,76 +36,12 @@ using Lines = std::vector<std::string>;
 
 TEST_SUITE_BEGIN("ping");
 
-TEST_CASE("silhouette: a point that is as strong as all else stands out in one resolution cell") {
-    const MaskFrame frame{7, 9, {.range_bins = 5.0, .beams = 3.0}};
-    Ids object(63);
-    std::vector<float> echo(63);
-    object[3 * 9 + 4] = 1;
-    echo[3 * 9 + 4] = 1.0F;
-    for (const float rest : {0.1F, 0.99F, 1.01F}) {
-        const std::vector<float> whole(63, 1.0F + rest);
-        const Standouts found = find_standouts({frame, object, echo, whole});
-        CHECK(std::ranges::count(found.object, 1) == (rest < 1.0F ? 15 : 0));
-        if (rest > 1.0F) continue;
-        CHECK(found.object[2 * 9 + 2] == 1);
-        CHECK(found.object[4 * 9 + 6] == 1);
-        CHECK(found.ratio[3 * 9 + 4] == test::approx(std::min(1.0F / rest, 4.0F)));
-    }
-}
-
-TEST_CASE("silhouette: the echo of a surface is that of the area of a resolution cell") {
-    const MaskFrame frame{20, 20, {.range_bins = 2.0, .beams = 4.4}};
-    const Ids object(400, 7);
-    const std::vector<float> echo(400, 1.0F);
-    const float cell = 2.0F * 4.4F;
-    CHECK(
-        find_standouts({frame, object, echo, std::vector<float>(400, 1.99F * cell)}).object[210] ==
-        7);
-    CHECK(
-        find_standouts({frame, object, echo, std::vector<float>(400, 2.01F * cell)}).object[210] ==
-        0);
-}
-
-TEST_CASE("silhouette: of two objects a bin has the one with the stronger echo") {
-    const MaskFrame frame{1, 4, {}};
-    const Ids object{1, 1, 2, 2};
-    const std::vector<float> echo{1.0F, 3.0F, 5.0F, 1.0F};
-    const std::vector<float> whole{1.0F, 9.0F, 6.0F, 1.5F};
-    CHECK(find_standouts({frame, object, echo, whole}).object == Ids{1, 0, 2, 2});
-}
-
 TEST_CASE("silhouette: a piece without visible surface of its object is its mirror image") {
     const DrawnIds drawn({"11.11..", "11.11.2", ".......", "..33...", "..33..."});
     const DrawnIds visible({"1......", "..2....", ".......", "......3", "......."});
-    Standouts found{drawn.ids, {}};
+    Ids found = drawn.ids;
     drop_mirror_images(drawn.frame, visible.ids, found);
-    CHECK(drawn.text(found.object) == Lines{"11.....", "11.....", ".......", ".......", "......."});
-}
-
-TEST_CASE("silhouette: gaps and holes are closed, specks are dropped") {
-    const DrawnIds drawn({"............", ".11..11...3.", ".11..11...3.", "............",
-                          ".22222......", ".2...2......", ".2...2......", ".2...2...22.",
-                          ".22222....2.", "............"});
-    CHECK(drawn.text(tidied(drawn.frame, drawn.ids)) ==
-          Lines{"............", ".111111.....", ".111111.....", "............", ".22222......",
-                ".22222......", ".22222......", ".22222......", ".22222......", "............"});
-}
-
-TEST_CASE("silhouette: a piece needs four cells, or weights that come to as much") {
-    const DrawnIds drawn(
-        {"111..........1", "..............", "..............", "..............", "1111.........."});
-    std::vector<float> weights(drawn.ids.size(), 1.0F);
-    weights[13] = 4.0F;
-    CHECK(drawn.text(tidied(drawn.frame, drawn.ids, weights)) ==
-          Lines{".............1", "..............", "..............", "..............",
-                "1111.........."});
-}
-
-TEST_CASE("silhouette: gaps up to a resolution cell are closed, but for other objects") {
-    const DrawnIds drawn({"111....111.....111", "111..2.111.....111", "111....111.....111"},
-                         {.range_bins = 5.0, .beams = 1.0});
-    CHECK(drawn.text(tidied(drawn.frame, drawn.ids, std::vector<float>(54, 20.0F))) ==
-          Lines{"1111111111.....111", "1111121111.....111", "1111111111.....111"});
+    CHECK(drawn.text(found) == Lines{"11.....", "11.....", ".......", ".......", "......."});
 }
 
 TEST_CASE("outline: the body in view is what comes up to a share of all else in a cell") {

@@ -104,7 +104,7 @@ TEST_SUITE("sonar") {
         const TracedPing traced = trace(sonar, scene, *engine, {}, 0);
         const SceneObjects objects = group_objects(scene, {});
         LabelRequest request = everything;
-        request.silhouettes = request.height = request.annotations = true;
+        request.outlines = request.height = request.annotations = true;
         const auto labels_of = [&](const TracedPing& ping) {
             return label_ping(ping, sonar.settings, scene, objects, *engine, request);
         };

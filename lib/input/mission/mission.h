@@ -42,7 +42,7 @@ struct ClassConfig {
 };
 
 /// The bins that the mask of an object has.
-enum class MaskKind { outline, echo, silhouette, silhouette_and_shadow };
+enum class MaskKind { outline, echo };
 
 /// The classes that are background, which have neither contrast, shadow nor visible share, and the
 /// masks of the others.
@@ -109,11 +109,8 @@ void describe(Visitor& v, ClassConfig& c) {
               "a rule for classes needs the keys 'nodes' and 'class'");
 }
 
-inline constexpr Choice<MaskKind> mask_kinds[]{
-    {"outline", MaskKind::outline},
-    {"echo", MaskKind::echo},
-    {"silhouette", MaskKind::silhouette},
-    {"silhouette+shadow", MaskKind::silhouette_and_shadow}};
+inline constexpr Choice<MaskKind> mask_kinds[]{{"outline", MaskKind::outline},
+                                               {"echo", MaskKind::echo}};
 
 template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
@@ -124,14 +121,12 @@ void describe(Visitor& v, LabelConfig& c) {
            "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
-    v.choice(
-        "mask", c.mask, mask_kinds,
-        "mask of an object in `objects`: `outline` is a filled outline around its visible body, as "
-        "a person draws it, `echo` where its echo is the largest, `silhouette` where its echo "
-        "stands out of all else");
+    v.choice("mask", c.mask, mask_kinds,
+             "mask of an object in `objects`: `outline` is a filled outline around its visible "
+             "body, as a person draws it, `echo` where its echo is the largest");
     v.text("shadow", c.shadow, "classes whose masks include the shadow behind");
     v.require(c.shadow.empty() || c.mask != MaskKind::echo, {"shadow", "mask"},
-              "'shadow' needs mask: outline or silhouette");
+              "'shadow' needs mask: outline");
 }
 
 template <class Visitor>

@@ -13,26 +13,6 @@ namespace {
 
 using Ids = std::vector<std::uint16_t>;
 
-/// The bins of a ping. An image in the unit of echoes has all but the receiver's noise: also the
-/// water and side lobes.
-ExpectedBins expected_bins(const Sonar& sonar, const Scene& scene, const TracedPing& traced,
-                           PingLabels& labels) {
-    const EchoModelInfo& info = sonar.settings.model->info;
-    if (!info.echo_gain.empty()) {
-        const Ping clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
-        for (std::size_t k = 0; k < labels.size(); ++k) {
-            const auto i = static_cast<int>(k % labels.range_bins);
-            const float noise = info.mean_noise.empty() ? 0.0F : info.mean_noise[i];
-            const auto beam = static_cast<int>(k / labels.range_bins);
-            labels.whole_echo[k] = (clean.at(i, beam) + noise) / info.echo_gain[i];
-        }
-    }
-    return {{labels.beams, labels.range_bins, info.cell},
-            labels.own_object,
-            labels.own_echo,
-            labels.whole_echo};
-}
-
 /// The ids without those of background.
 Ids without_background(Ids ids, const SceneObjects& objects) {
     for (std::uint16_t& id : ids) {
@@ -50,21 +30,13 @@ Ids find_outlines(const LabelPlan& plan, const EchoModelInfo& info, const PingLa
     // Weak parts of the visible body count, 1 dB above what is there without them; of multipath,
     // such as the foot of a wall, what outshines all else.
     constexpr float body_ratio = 0.25F;
-    Standouts found;
-    found.object = find_bodies(
-        {frame, labels.visible_object, labels.visible_echo, labels.whole_echo}, noise, body_ratio);
+    Ids found = find_bodies({frame, labels.visible_object, labels.visible_echo, labels.whole_echo},
+                            noise, body_ratio);
     const Ids bright =
         find_bodies({frame, labels.own_object, labels.own_echo, labels.whole_echo}, noise, 1.0F);
-    add_bright(frame, bright, found.object);
+    add_bright(frame, bright, found);
     drop_mirror_images(frame, labels.visible_object, found);
-    return plan.objects ? outlined(frame, found.object) : found.object;
-}
-
-Ids find_silhouettes(const LabelPlan& plan, const ExpectedBins& expected,
-                     const PingLabels& labels) {
-    Standouts found = find_standouts(expected);
-    drop_mirror_images(expected.frame, labels.visible_object, found);
-    return plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
+    return plan.objects ? outlined(frame, found) : found;
 }
 
 }  // namespace
@@ -80,9 +52,7 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     const bool shares = listed(Label::share) || listed(Label::second) || listed(Label::multipath);
     const OutputConfig& output = mission.output;
     const MaskKind mask = mission.labels.mask;
-    const bool is_local = mask == MaskKind::echo || mask == MaskKind::outline;
-    const bool only_objects =
-        has_images && is_local && output.labels == std::vector{Label::objects};
+    const bool only_objects = has_images && output.labels == std::vector{Label::objects};
     LabelPlan plan;
     plan.on = !output.labels.empty();
     plan.request = {.objects = objects || listed(Label::instance) || shares,
@@ -93,7 +63,7 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .elevation = listed(Label::elevation),
                     .shadow = listed(Label::shadow),
                     .height = listed(Label::height),
-                    .silhouettes = objects && mask != MaskKind::echo,
+                    .outlines = objects && mask != MaskKind::echo,
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.mask = mask;
@@ -120,13 +90,8 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    if (request.silhouettes) {
-        out.bins.silhouette =
-            plan.mask == MaskKind::outline
-                ? find_outlines(plan, sonar.settings.model->info, out.bins)
-                : find_silhouettes(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
-                                   out.bins);
-    }
+    if (request.outlines)
+        out.bins.silhouette = find_outlines(plan, sonar.settings.model->info, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);
     if (plan.mask != MaskKind::echo) {

@@ -98,8 +98,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
 }
 
 std::vector<std::uint8_t> shadow_classes(const Mission& mission, const SceneObjects& objects) {
-    const bool all = mission.labels.mask == MaskKind::silhouette_and_shadow;
-    std::vector<std::uint8_t> shadow(objects.classes.size(), all ? 1 : 0);
+    std::vector<std::uint8_t> shadow(objects.classes.size(), 0);
     for (const std::string& name : mission.labels.shadow)
         shadow[class_named(mission, objects, "shadow", name)] = 1;
     return shadow;

@@ -144,7 +144,7 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
                            {own(out.object, out, j), own(out.second, out, j),
                             own(out.share, out, j), own(out.second_share, out, j)});
         }
-        if (request.silhouettes) {
+        if (request.outlines) {
             visible.find(surfaces.sums(), j,
                          {own(out.visible_object, out, j), {}, own(out.visible_echo, out, j)});
             own_echoes.find(surfaces.sums(), j,
@@ -195,7 +195,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                        const LabelRequest& request) {
     const View& view = settings.view;
     PingLabels labels = blank_labels(view, request);
-    SurfaceSums surfaces(view, objects, request.silhouettes);
+    SurfaceSums surfaces(view, objects, request.outlines);
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene,
                                        {.patches = request.elevation || request.height,

@@ -25,7 +25,7 @@ struct LabelRequest {
     bool shadow = false;
     bool height = false;
     /// Needs objects: visible_object, visible_echo, own_object, own_echo, whole_echo.
-    bool silhouettes = false;
+    bool outlines = false;
     /// Needs objects: the data of annotations, for objects that are no background.
     bool annotations = false;
     std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
@@ -46,12 +46,12 @@ struct PingLabels {
     std::vector<float> share;           ///< its share of that echo; 0 without an echo
     std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
     std::vector<float> second_share;
-    /// For silhouettes and outlines, of the objects that are no background: that with the largest
+    /// For outlines, of the objects that are no background: that with the largest
     /// direct echo, and this echo; that with the largest echo of its own, which is direct or came
     /// over it on one of two surfaces; this echo, and all echoes.
     std::vector<std::uint16_t> visible_object, own_object;
     std::vector<float> visible_echo, own_echo, whole_echo;
-    std::vector<std::uint16_t> silhouette;    ///< or outline; label_ping() leaves it empty
+    std::vector<std::uint16_t> silhouette;    ///< outlines; label_ping() leaves it empty
     std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
     std::vector<std::uint16_t> material;      ///< the material that gives most of it
     std::vector<float> multipath;             ///< share of the echo that came over a second surface
@@ -65,7 +65,7 @@ struct PingLabels {
     /// an object out of view and, without the shadow, for background.
     std::vector<float> visible_share;
 
-    /// The objects of the bins for their facts: silhouettes or outlines if they are known.
+    /// The objects of the bins for their facts: outlines if they are known.
     const std::vector<std::uint16_t>& facts() const {
         return silhouette.empty() ? object : silhouette;
     }
@@ -84,11 +84,11 @@ void for_each_label(const LabelRequest& request, Use use) {
     use(&PingLabels::second, request.shares, no_id);
     use(&PingLabels::second_share, request.shares, nothing);
     use(&PingLabels::multipath, request.shares, nothing);
-    use(&PingLabels::visible_object, request.silhouettes, no_id);
-    use(&PingLabels::visible_echo, request.silhouettes, nothing);
-    use(&PingLabels::own_object, request.silhouettes, no_id);
-    use(&PingLabels::own_echo, request.silhouettes, nothing);
-    use(&PingLabels::whole_echo, request.silhouettes, nothing);
+    use(&PingLabels::visible_object, request.outlines, no_id);
+    use(&PingLabels::visible_echo, request.outlines, nothing);
+    use(&PingLabels::own_object, request.outlines, no_id);
+    use(&PingLabels::own_echo, request.outlines, nothing);
+    use(&PingLabels::whole_echo, request.outlines, nothing);
     use(&PingLabels::class_id, request.classes, no_id);
     use(&PingLabels::material, request.materials, no_id);
     use(&PingLabels::elevation_rad, request.elevation, no_surface);

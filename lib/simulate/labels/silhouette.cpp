@@ -8,9 +8,6 @@ namespace sonarsim {
 
 namespace {
 
-// A piece has four cells at the least ratio of a standout, 1, or one cell at this ratio or more.
-constexpr float greatest_ratio = 4.0F;
-
 using Ids = std::vector<std::uint16_t>;
 
 /// The reach of gaps that are closed.
@@ -107,33 +104,9 @@ Ids outlined(const MaskFrame& frame, const Ids& ids) {
     return out;
 }
 
-Standouts find_standouts(const ExpectedBins& ping) {
-    const ResolutionCell& cell = ping.frame.cell;
-    const CellReach reach(cell);
-    const auto scale = static_cast<float>(cell.range_bins * cell.beams) / reach.count();
-    Standouts out{Ids(ping.object.size()), std::vector<float>(ping.object.size())};
-    std::vector<float> strongest(ping.object.size());
-    for (auto& [id, window] : windows_of(ping.frame, reach, ping.object)) {
-        const std::uint16_t object = id;
-        window.for_each(ping.frame, [&](float& echo, std::size_t k) {
-            if (ping.object[k] == object) echo = scale * ping.echo[k];
-        });
-        window.sum_within(reach);
-        window.for_each(ping.frame, [&](float& echo, std::size_t k) {
-            const float rest = std::max(ping.whole[k] - echo, echo / greatest_ratio);
-            if (echo < rest || !(echo > strongest[k])) return;
-            strongest[k] = echo;
-            out.object[k] = object;
-            out.ratio[k] = echo / rest;
-        });
-    }
-    return out;
-}
-
 void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
-                        Standouts& standouts) {
+                        Ids& ids) {
     constexpr float found = 2.0F;
-    Ids& ids = standouts.object;
     for (auto& [id, shape] : windows_of(frame, CellReach({}), ids)) {
         const std::uint16_t object = id;
         MaskWindow kept = shape;
@@ -149,31 +122,6 @@ void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> v
             if (value == 1.0F) ids[k] = 0;
         });
     }
-}
-
-Ids tidied(const MaskFrame& frame, const Ids& ids, std::span<const float> weights) {
-    const CellReach reach = closing_reach(frame.cell);
-    const float least = greatest_ratio * CellReach(frame.cell).count();
-    Ids out(ids.size());
-    for (auto& [id, shape] : windows_of(frame, reach, ids)) {
-        const std::uint16_t object = id;
-        MaskWindow weight = shape;
-        weight.for_each(frame, [&](float& value, std::size_t k) {
-            if (ids[k] == object) value = weights.empty() ? 1.0F : weights[k];
-        });
-        shape.for_each(
-            frame, [&](float& value, std::size_t k) { value = ids[k] == object ? 1.0F : 0.0F; });
-        tidy(shape, reach, [&](const std::vector<int>& piece) {
-            float sum = 0.0F;
-            for (const int at : piece)
-                sum += weight.values[at];
-            return sum >= least;
-        });
-        shape.for_each(frame, [&](float value, std::size_t k) {
-            if (value != 0.0F && (ids[k] == 0 || ids[k] == object)) out[k] = object;
-        });
-    }
-    return out;
 }
 
 Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow,

@@ -16,12 +16,6 @@ struct ExpectedBins {
     std::span<const float> whole;           ///< all that the bin holds, in the unit of echoes
 };
 
-/// The objects that stand out: 1 + the object of each bin, or 0.
-struct Standouts {
-    std::vector<std::uint16_t> object;
-    std::vector<float> ratio;  ///< its echo over all else, at most 4
-};
-
 /// The bins that an object of `ping` has and in which its echo within a resolution cell is at least
 /// `least_ratio` times that of all other surface there and `noise`, the mean noise of a cell by
 /// range bin, which may be empty. Bins without an echo of an object do not matter.
@@ -39,22 +33,10 @@ void add_bright(const MaskFrame& frame, const std::vector<std::uint16_t>& bright
 /// a cell are dropped.
 std::vector<std::uint16_t> outlined(const MaskFrame& frame, const std::vector<std::uint16_t>& ids);
 
-/// The objects whose own echo within a resolution cell is at least as strong as all else that
-/// the bin holds, and the strongest there. Such a bin is 3 dB above what it is without the object,
-/// the contrast by which widths of beams and pulses are measured.
-Standouts find_standouts(const ExpectedBins& ping);
-
 /// Drops the pieces without a bin that `visible`, PingLabels::visible_object, gives to their
 /// object: mirror images of it or in it.
 void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
-                        Standouts& standouts);
-
-/// Ids of bins, 0 for none, as a person would draw the objects: gaps up to a resolution cell, or
-/// two bins, are closed and holes filled, but for bins of other ids. A piece is dropped if its
-/// weights come to less than those of four cells of weight 1: speckle makes such pieces, too.
-/// Without `weights` all are 1.
-std::vector<std::uint16_t> tidied(const MaskFrame& frame, const std::vector<std::uint16_t>& ids,
-                                  std::span<const float> weights = {});
+                        std::vector<std::uint16_t>& ids);
 
 /// Ids with the bins of `shadow` of the same id, if `has_shadow`, indexed by id, is 1 for it: the
 /// pieces of it, not smaller than a resolution cell, that have a line in common with the id.

@@ -123,7 +123,7 @@ constexpr LabelFile label_files[] = {
 };
 
 /// Records of sonars without images. Their files of objects are made of these and of the records of
-/// instances or silhouettes.
+/// instances or outlines.
 constexpr LabelFile annotation_records[] = {
     {Label::objects, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
     {Label::objects, visible_share_record, visible_shares},

@@ -83,9 +83,7 @@ class ObjectRecords {
     /// The ids, or passes of objects, of a picture as their masks.
     std::vector<std::uint16_t> drawn(const MaskFrame& frame,
                                      const std::vector<std::uint16_t>& ids) const {
-        const MaskKind mask = context_.mission.labels.mask;
-        if (mask == MaskKind::echo) return ids;
-        return mask == MaskKind::outline ? outlined(frame, ids) : tidied(frame, ids);
+        return context_.mission.labels.mask == MaskKind::echo ? ids : outlined(frame, ids);
     }
     const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
     /// 1 for the ids whose masks include the shadow.
