@@ -37,8 +37,8 @@ TEST_SUITE("calibrated") {
         const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
         const Sonar narrow = line_array_sonar(0.0);
         const Sonar wide = line_array_sonar(180.0);
-        CHECK(narrow.settings.guard_beams.count == 0);
-        CHECK(wide.settings.guard_beams.count == 64);
+        CHECK(narrow.settings.view.guards.count == 0);
+        CHECK(wide.settings.view.guards.count == 64);
         const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
         CHECK(std::ranges::max(ahead) > 0.0F);
         CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
@@ -47,8 +47,8 @@ TEST_SUITE("calibrated") {
         CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
         // Guard beams as wide as two bins, in the same 60 degrees to either side.
         Sonar coarse = wide;
-        coarse.settings.guard_beams = {.count = 32, .beam_rad = radians(60.0) / 32};
-        const View widened = widened_view(coarse.settings.view, coarse.settings.guard_beams);
+        coarse.settings.view.guards = {.count = 32, .beam_rad = radians(60.0) / 32};
+        const View widened = widened_view(coarse.settings.view);
         CHECK(std::fabs(widened.azimuth_rad - radians(180.0)) < 1e-9);
         CHECK(image_error(image_of_ball(coarse, azimuth, elevation), aside).relative_l1 < 0.02);
         CHECK(image_error(image_of_ball(coarse, -azimuth, elevation),
@@ -65,7 +65,7 @@ TEST_SUITE("calibrated") {
         config.instrument.beam.width_deg = 1.0;
         const auto traced_beams = [&](double goal) {
             const Sonar sonar = make_sonar(config, {goal});
-            return traced_view(sonar.settings.view, sonar.settings.guard_beams).beams;
+            return traced_view(sonar.settings.view).beams;
         };
         CHECK(traced_beams(0.03) == 60);
         CHECK(traced_beams(0.01) == 120);
@@ -75,19 +75,17 @@ TEST_SUITE("calibrated") {
         for (const double view_azimuth_deg : {0.0, 91.4}) {
             config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
             const Sonar joined = make_sonar(config, {0.02});
-            REQUIRE(joined.settings.guard_beams.joined == 2);
+            REQUIRE(joined.settings.view.guards.joined == 2);
             const auto engine = make_engine(scene, {.type = EngineKind::strips, .octree = {}});
-            const Samples samples =
-                visible_surface(joined.settings.view, joined.settings.guard_beams, *engine, {})
-                    .samples;
+            const Samples samples = visible_surface(joined.settings.view, *engine, {});
             REQUIRE(std::ssize(samples.beam_begin) == joined.settings.view.beams + 1);
-            CHECK(samples.beam_begin.back() == samples.items.size());
+            CHECK(samples.in_no_beam().empty() == (view_azimuth_deg == 0.0));
             for (int j = 0; j < joined.settings.view.beams; j += 2) {
                 CHECK(samples.beam(j).size() > 0);
                 CHECK(samples.beam(j + 1).empty());
             }
             Sonar single = joined;
-            single.settings.guard_beams.joined = 1;
+            single.settings.view.guards.joined = 1;
             const std::vector<float> by_two = expected_image(joined, scene, EngineKind::strips);
             const std::vector<float> by_one = expected_image(single, scene, EngineKind::strips);
             CHECK(image_error(by_two, by_one).relative_l1 < 0.03);

@@ -1,6 +1,5 @@
-#include "simulate/calibrated/particle_echoes.h"
-
 #include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/form_look.h"
 #include "simulate/calibrated/piston.h"
 #include "support/labelled.h"
 #include "support/patches.h"
@@ -14,10 +13,12 @@ constexpr float section_m2 = 1e-4F;  // TS = -40 dB
 
 TracedPing ping_of_points(const std::vector<Eigen::Vector3f>& places) {
     TracedPing traced;
+    traced.samples.beam_begin = {0};
     for (const Eigen::Vector3f& place : places) {
-        traced.particles.numbers.push_back(
-            static_cast<std::uint32_t>(traced.particles.samples.size()));
-        traced.particles.samples.push_back(point_facing(place, static_cast<double>(section_m2)));
+        Sample point = point_facing(place, static_cast<double>(section_m2));
+        point.kind = SampleKind::particle;
+        point.number = static_cast<std::uint32_t>(traced.samples.items.size());
+        traced.samples.items.push_back(point);
     }
     return traced;
 }

@@ -149,8 +149,8 @@ TEST_SUITE("checks") {
         config.instrument.beam.view_azimuth_deg = 179.0;
         // The array resolves a degree with 2.7 columns: 2 x 237 beams, not 91,136.
         const Sonar sonar = make_sonar(config, {});
-        CHECK(sonar.settings.guard_beams.count > 200);
-        CHECK(sonar.settings.guard_beams.count < 280);
+        CHECK(sonar.settings.view.guards.count > 200);
+        CHECK(sonar.settings.view.guards.count < 280);
         CHECK(ping_memory(sonar).bytes < 1e8);
     }
 

@@ -46,9 +46,7 @@ Thing draw_thing(Uniform& draw) {
 std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& sonar) {
     const View& view = sonar.settings.view;
     std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
-    std::vector<Sample> samples = traced.samples.items;
-    samples.insert(samples.end(), traced.outside_sector.begin(), traced.outside_sector.end());
-    for (const Sample& sample : samples) {
+    for (const Sample& sample : traced.samples.items) {
         const Eigen::Vector3f to = sample.position.normalized();
         // Four points to a bin, and to the width of the sample in beams.
         const auto points_along = [&](const Eigen::Vector3f& half_edge) {

@@ -52,7 +52,8 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
         const auto labels_of = [&](const Sonar& by) {
             const TracedPing traced = trace(by, thing.scene, *engine, thing.pose, 0);
             const bool has_pieces = std::ranges::any_of(
-                traced.samples.items, [](const Sample& sample) { return sample.region > 0; });
+                traced.samples.items,
+                [](const Sample& sample) { return sample.kind == SampleKind::target; });
             CHECK(has_pieces == (&by == &with_targets));
             return label_ping(traced, by.settings, thing.scene, objects, *engine,
                               {.objects = true});

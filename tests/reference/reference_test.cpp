@@ -241,7 +241,7 @@ TEST_CASE("the calibrated reference agrees with the engines") {
     const Caster caster(scene);
     Sonar hears_more = coarse_sonar(SonarKind::imaging);
     hears_more.settings.view.elevation_rad = radians(120.0);
-    hears_more.settings.guard_beams.count = hears_more.settings.view.beams / 2;
+    hears_more.settings.view.guards.count = hears_more.settings.view.beams / 2;
     for (const Sonar& sonar :
          {coarse_sonar(SonarKind::imaging), hears_more, coarse_sonar(SonarKind::sidescan),
           coarse_sonar(SonarKind::echosounder)}) {
@@ -258,7 +258,7 @@ TEST_CASE("the calibrated reference agrees with the engines") {
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
         CAPTURE(name_of(kind));
-        CAPTURE(sonar.settings.guard_beams.count);
+        CAPTURE(sonar.settings.view.guards.count);
         CAPTURE(reference.noise);
         CHECK(error.relative_l1 < 0.02 + reference.noise);
         CHECK(reference.noise < 0.03);

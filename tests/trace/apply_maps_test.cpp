@@ -23,8 +23,7 @@ TEST_SUITE("lay maps") {
             const auto engine = make_engine(scene, {.type = type, .octree = {}});
             const Samples whole = engine->visible_surface(sonar.settings.view, pose);
             Samples cut = whole;
-            std::vector<Sample> none;
-            apply_maps(*scene.maps, sonar.settings.view, pose, cut, none);
+            apply_maps(*scene.maps, sonar.settings.view, pose, cut);
             CHECK(cut.items.size() > whole.items.size());
             const auto area = [](std::span<const Sample> samples) {
                 double sum = 0.0;

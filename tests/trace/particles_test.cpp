@@ -49,15 +49,22 @@ TEST_SUITE("ping") {
                          particle_at(-5.0, 0.0, 0.0),  particle_at(5.0, 5.2, 0.0),
                          particle_at(5.0, 0.0, 1.0),   particle_at(19.0, 9.0, 0.0),
                          particle_at(18.0, -7.0, 0.0), particle_at(7.0, 0.0, -1.2)};
-        const SeenParticles seen = visible_particles(particles, 0.0, wide_fan, {}, *engine, {}, {});
+        const auto numbers_of = [](const Samples& samples) {
+            std::vector<std::uint32_t> numbers;
+            for (const Sample& sample : samples.items)
+                numbers.push_back(sample.number);
+            return numbers;
+        };
+        Samples seen;
+        add_particles(particles, 0.0, wide_fan, *engine, {}, {}, seen);
         // 5 is outside in azimuth, 6 at 11.3 degrees of elevation, 7 beyond 20 m.
-        CHECK(seen.numbers == std::vector<std::uint32_t>{0, 3, 8, 9});
-        CHECK((seen.samples[1].position - Eigen::Vector3f(12.0F, 3.1F, 0.0F)).norm() < 1e-5F);
-        CHECK(seen.samples[1].area_m2 == 0.25F);
+        CHECK(numbers_of(seen) == std::vector<std::uint32_t>{0, 3, 8, 9});
+        CHECK((seen.items[1].position - Eigen::Vector3f(12.0F, 3.1F, 0.0F)).norm() < 1e-5F);
+        CHECK(seen.items[1].area_m2 == 0.25F);
         // From a sonar behind the wall that looks back, past whose edge it sees 5.
         const Pose back{rotation_from_rpy(0.0, 0.0, pi), {16.0, 0.0, 0.0}};
-        const SeenParticles behind =
-            visible_particles(particles, 0.0, wide_fan, {}, *engine, back, {});
-        CHECK(behind.numbers == std::vector<std::uint32_t>{1, 2, 3, 5});
+        Samples behind;
+        add_particles(particles, 0.0, wide_fan, *engine, back, {}, behind);
+        CHECK(numbers_of(behind) == std::vector<std::uint32_t>{1, 2, 3, 5});
     }
 }

@@ -65,7 +65,6 @@ TEST_SUITE("trace") {
         // second.
         const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
         Samples samples;
-        std::vector<Sample> outside;
         samples.beam_begin = {0};
         for (int j = 0; j < 10; ++j) {
             const double azimuth = radians(-27.0 + 6.0 * j);
@@ -76,10 +75,10 @@ TEST_SUITE("trace") {
             samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
         }
         const Samples before = samples;
-        move_in_ping({}, view, samples, outside);
+        move_in_ping({}, view, samples);
         CHECK(samples.items[3].position == before.items[3].position);
-        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples, outside);
-        REQUIRE(outside.size() == 1);
+        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples);
+        REQUIRE(samples.in_no_beam().size() == 1);
         CHECK(samples.beam(9).empty());
         for (int j = 0; j < 9; ++j) {
             REQUIRE(samples.beam(j).size() == 1);

@@ -35,12 +35,12 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
         double section_m2 = 0.0;
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
     };
-    const SeenParticles& seen = finished.traced.particles;
     std::map<std::uint32_t, Sum> sums;  // keyed by instance
-    for (std::size_t k = 0; k < seen.samples.size(); ++k) {
-        Sum& sum = sums[seen.samples[k].instance];
+    for (const Sample& sample : finished.traced.samples.in_no_beam()) {
+        if (sample.kind != SampleKind::particle) continue;
+        Sum& sum = sums[sample.instance];
         ++sum.count;
-        const Particle& particle = finished.sonar.settings.particles->all[seen.numbers[k]];
+        const Particle& particle = finished.sonar.settings.particles->all[sample.number];
         sum.section_m2 += particle.section_m2;
         sum.place += place_at(particle, time_s);
     }

@@ -42,18 +42,6 @@ double cell_m2_of(const Sonar& sonar) {
     return std::min(noise.scatterer_m * noise.scatterer_m, std::max(max_m2, usual_m2));
 }
 
-std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assembly) {
-    std::vector<Sonar> sonars;
-    for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
-        Sonar& sonar =
-            sonars.emplace_back(make_sonar(mission.sensors[i], mission.accuracy, mission.water));
-        const PingSettings& own = assembly.sonars[i].settings;
-        sonar.settings.targets = own.targets;
-        prepare_for(assembly.scene, sonar);
-    }
-    return sonars;
-}
-
 /// The ping of one sonar that is measured.
 struct Task {
     std::size_t sonar;
@@ -133,12 +121,9 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& 
 
 Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor) {
-    PingSettings settings = sonar.settings;
-    settings.particles = nullptr;
-    settings.sees_water_surface = false;
     const TracedPing traced =
-        trace_ping(settings, scene, engine, T_world_sensor, direct_echoes_alone);
-    return form_image(traced, settings, scene, {}, direct_echoes_alone);
+        trace_ping(sonar.settings, scene, engine, T_world_sensor, surface_alone);
+    return form_image(traced, sonar.settings, scene, {}, surface_alone);
 }
 
 std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
@@ -146,19 +131,17 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const VisibilityEngine& engine) {
     std::vector<std::optional<MeasuredError>> errors(mission.sensors.size());
     if (assembly.scene.sound_profile) return errors;
-    const Mission measured = without_water_echoes(mission);
-    const std::vector<Sonar> sonars = measured_sonars(measured, assembly);
     std::vector<Task> tasks;
-    for (std::size_t i = 0; i < sonars.size(); ++i) {
-        for (const std::uint32_t pose :
-             sample_pings(assembly.trajectory.size(), sonars[i].config.every, max_measured_pings))
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        for (const std::uint32_t pose : sample_pings(
+                 assembly.trajectory.size(), assembly.sonars[i].config.every, max_measured_pings))
             tasks.push_back({i, pose});
     }
     const Caster caster = assembly.make_caster();
     std::vector<PingError> found(tasks.size());
     in_parallel(tasks.size(), [&](std::size_t k) {
-        found[k] =
-            measure(measured, assembly, caster, engine, sonars[tasks[k].sonar], tasks[k].pose);
+        found[k] = measure(mission, assembly, caster, engine, assembly.sonars[tasks[k].sonar],
+                           tasks[k].pose);
     });
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         std::optional<MeasuredError>& error = errors[tasks[k].sonar];

@@ -31,16 +31,15 @@ struct MeasuredError {
     double least_measurable() const;
 };
 
-/// The mission without what a reference does not find: echoes of the water, and several samples per
-/// range bin, which do not add up.
+/// The mission without the scattering of the water's volume.
 Mission without_water_echoes(Mission mission);
 
-/// Casts the reference of a sonar's direct echoes, for either echo model. `sonar` is one of a
-/// mission without_water_echoes().
+/// Casts the reference of a sonar's direct echoes of surface, for either echo model.
 Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                          const Pose& T_world_sensor, ReferenceGoal goal);
 
-/// The image of the sonar's direct echoes from a pose where sonar and objects stand still.
+/// The image of the sonar's direct echoes of surface from a pose where sonar and objects stand
+/// still.
 Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor);
 

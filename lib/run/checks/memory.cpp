@@ -18,7 +18,7 @@ PingMemory ping_memory(const Sonar& sonar) {
     const double bins = view.range_bins;
     const double visible_per_beam = bins * samples_per_bin * sizeof(Sample);
     const double image = view.beams * (visible_per_beam + bins * bytes_per_bin);
-    const double guards = 2.0 * sonar.settings.guard_beams.count * visible_per_beam;
+    const double guards = 2.0 * view.guards.count * visible_per_beam;
     const EchoModelInfo& model = sonar.settings.model->info;
     const double working =
         model.working_bytes + (sonar.settings.multipath.on ? model.multipath_bytes : 0.0);

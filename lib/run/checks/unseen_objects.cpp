@@ -129,8 +129,11 @@ bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
             return sample.instance == instance && range >= sonar.settings.view.range_min_m &&
                    range < sonar.settings.view.range_max_m;
         };
-        if (std::ranges::any_of(traced.samples.items, is_it) ||
-            std::ranges::any_of(traced.behind_walls, is_it))
+        const auto is_behind_wall = [&](const Sample& sample) {
+            return sample.kind == SampleKind::behind_wall && is_it(sample);
+        };
+        if (std::ranges::any_of(traced.samples.in_beams(), is_it) ||
+            std::ranges::any_of(traced.samples.in_no_beam(), is_behind_wall))
             return true;
     }
     return false;

@@ -60,21 +60,18 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
     if (all) return out;
     const std::array<std::uint32_t, EchoBlock::most> one_source{};
-    const auto mark = [&](const TracedPing& group, int number) {
+    for (int group = 0; group < traced.groups(); ++group) {
         EchoSums sums(bins, settings.view.beams);
         settings.model->surface_echoes(
-            group, settings.view, scene, {},
+            traced.group(group), settings.view, scene, {},
             [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
         for (std::size_t j = 0; j < beams; ++j) {
-            if (!traced.group_of_beam.empty() && traced.group_of_beam[j] != number) continue;
+            if (!traced.transmits(group, static_cast<int>(j))) continue;
             const std::span<const std::uint8_t> column = sums.occupied(static_cast<int>(j));
             for (std::size_t i = 0; i < column.size(); ++i)
                 out[i * beams + j] = column[i];
         }
-    };
-    mark(traced, 0);
-    for (std::size_t k = 0; k < traced.later_groups.size(); ++k)
-        mark(traced.later_groups[k], static_cast<int>(k) + 1);
+    }
     return out;
 }
 

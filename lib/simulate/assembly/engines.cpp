@@ -26,7 +26,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
         const bool by_rays = is_by_rays(sonar, assembly.scene);
         all_by_rays = all_by_rays && by_rays;
         if (!by_rays) continue;
-        for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))
+        for (const Sight& sight : sights(sonar.settings.view, {}))
             settings.by_rays.push_back(sight.view);
     }
     if (all_by_rays) settings.type = EngineKind::rays;

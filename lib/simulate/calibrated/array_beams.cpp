@@ -110,22 +110,26 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
 
 }  // namespace
 
-ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines,
-                       std::span<const double> noise, const std::vector<float>& taps) {
+std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
+                                         std::span<const double> noise,
+                                         const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
-    ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false, beam.elements),
-                   .powers = Beamformer(array, beam_sines, true, beam.elements),
-                   .noise = {}};
+    Beamformer amplitudes(array, sines.middles, false, beam.elements);
+    ElementNoise element_noise;
     for (const double power : noise) {
-        out.noise.row_sigma.push_back(static_cast<float>(std::sqrt(power)) *
-                                      out.amplitudes.element_sigma_of_unit());
+        element_noise.row_sigma.push_back(static_cast<float>(std::sqrt(power)) *
+                                          amplitudes.element_sigma_of_unit());
     }
-    out.noise.taps = taps;
+    element_noise.taps = taps;
+    auto out = std::make_shared<ArrayBeams>(std::move(amplitudes),
+                                            Beamformer(array, sines.middles, true, beam.elements),
+                                            std::move(element_noise));
+    out->cones = ConeBeams(sines.edges);
     return out;
 }
 
-std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes) {
-    const SineGrid& grid = beams.amplitudes.grid();
+std::uint64_t ArrayBeams::find_columns(const PatchBlock& pieces, PointEchoes& echoes) const {
+    const SineGrid& grid = *sines();
     const auto per_step = static_cast<float>(1.0 / grid.step);
     const auto first_sine = static_cast<float>(grid.first);
     const auto last_column = static_cast<float>(grid.columns - 1);
@@ -141,36 +145,51 @@ std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, Po
     return outside;
 }
 
-void add_powers(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
-                const PointEchoes& echoes, EchoGrid& grid) {
+void ArrayBeams::deposit(const PatchBlock& /*pieces*/, const PointEchoes& echoes,
+                         const Amplitudes* amplitudes, EchoGrid& grid, EchoGrid* mean) const {
     const GridPlaces places(echoes, grid);
+    const auto add_powers = [&](EchoGrid& to) {
+        float* const first = to.column(0);
+        const std::size_t stride = to.stride();
+        for (int k = 0; k < echoes.count; ++k)
+            places.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
+    };
+    if (mean) add_powers(*mean);
+    if (!amplitudes) return add_powers(grid);
     float* const first = grid.column(0);
     const std::size_t stride = grid.stride();
     for (int k = 0; k < echoes.count; ++k)
-        places.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
+        places.add_shared(k, alternating(amplitudes->re[k], amplitudes->im[k]), first, stride);
 }
 
-void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
-                    const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid,
-                    EchoGrid* mean) {
-    const GridPlaces places(echoes, grid);
-    float* const first = grid.column(0);
-    const std::size_t stride = grid.stride();
-    for (int k = 0; k < echoes.count; ++k)
-        places.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
-    for (int k = 0; mean && k < echoes.count; ++k)
-        places.add_shared(k, alternating(echoes.power[k], 0.0F), mean->column(0), stride);
+void ArrayBeams::find_received(const PatchBlock& pieces, const PointEchoes& echoes,
+                               const PathEndpoint* /*out*/,
+                               std::vector<ReceivedPiece>& received) const {
+    for (int k = 0; k < pieces.count; ++k) {
+        const float power = echoes.power[k];
+        if (!(power > 0.0F)) continue;
+        const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
+        const float low = sine - pieces.half_sine[k];
+        const float high = sine + pieces.half_sine[k];
+        const auto add = [&](int beam, float share) {
+            received.push_back({beam, k, share * power});
+        };
+        if (high > low)
+            cones.for_each(low, high, add);
+        else if (const int beam = cones.beam(sine); beam >= 0)
+            add(beam, 1.0F);
+    }
 }
 
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-              std::span<const float> row_gain, std::span<float> image) {
-    if (powers) form_beams(beams.powers, &grid, nullptr, row_gain, image, false);
+void ArrayBeams::form(const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+                      std::span<const float> row_gain, std::span<float> image) const {
+    if (powers) form_beams(powers_, &grid, nullptr, row_gain, image, false);
     const EchoGrid* const amplitudes = powers ? nullptr : &grid;
     if (noisy) {
-        ElementNoiseOfPing noise = beams.amplitudes.noise_of_ping(beams.noise, key);
-        form_beams(beams.amplitudes, amplitudes, &noise, row_gain, image, powers);
+        ElementNoiseOfPing noise = amplitudes_.noise_of_ping(noise_, key);
+        form_beams(amplitudes_, amplitudes, &noise, row_gain, image, powers);
     } else if (amplitudes) {
-        form_beams(beams.amplitudes, amplitudes, nullptr, row_gain, image, powers);
+        form_beams(amplitudes_, amplitudes, nullptr, row_gain, image, powers);
     }
 }
 

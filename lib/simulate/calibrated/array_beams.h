@@ -1,60 +1,56 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/beamformer.h"
-#include "simulate/calibrated/sonar_equation.h"
+#include "simulate/calibrated/beams.h"
 
 namespace sonarsim {
 
-/// The beams that a line array forms. They have the far-field pattern at every range: the
-/// instrument is assumed to focus.
-struct ArrayBeams {
-    Beamformer amplitudes, powers;
-    ElementNoise noise;
+/// The sines of the azimuths of a fan's beams, and of the edges between them.
+struct BeamSines {
+    std::vector<double> middles, edges;  ///< the edges are one more
 };
 
-/// `beam_sines`: the sines of the beams' azimuths. `noise`: [range bins, to a multiple of 8] the
-/// noise power in a beam. `taps`: the noise's filter along range.
-ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines,
-                       std::span<const double> noise, const std::vector<float>& taps);
+/// The beams that a line array forms. They have the far-field pattern at every range: the
+/// instrument is assumed to focus. A beam receives echoes in its cone; powers are shared between
+/// the four cells of the grid around each echo.
+class ArrayBeams final : public Beams {
+  public:
+    ArrayBeams(Beamformer amplitudes, Beamformer powers, ElementNoise noise)
+        : amplitudes_(std::move(amplitudes)),
+          powers_(std::move(powers)),
+          noise_(std::move(noise)) {}
 
-inline int columns_of(const ArrayBeams& beams) {
-    return beams.amplitudes.grid().columns;
-}
-/// The sines of the columns.
-inline const SineGrid* sines_of(const ArrayBeams& beams) {
-    return &beams.amplitudes.grid();
-}
-/// The scalloping correction across the columns: mean power over positions between two columns /
-/// power at a column.
-inline float scalloping_gain(const ArrayBeams& beams) {
-    return beams.amplitudes.scalloping_gain();
-}
+    int columns() const override { return sines()->columns; }
+    const SineGrid* sines() const override { return &amplitudes_.grid(); }
+    float scalloping_gain() const override { return amplitudes_.scalloping_gain(); }
+    std::uint64_t find_columns(const PatchBlock& pieces, PointEchoes& echoes) const override;
+    void deposit(const PatchBlock& pieces, const PointEchoes& echoes, const Amplitudes* amplitudes,
+                 EchoGrid& grid, EchoGrid* mean) const override;
+    void deposit_paths(const PathEndpoint& /*out*/, const PathEndpoint& back,
+                       EchoGrid& grid) const override {
+        deposit(back.places, back.echoes, nullptr, grid, nullptr);
+    }
+    void find_received(const PatchBlock& pieces, const PointEchoes& echoes, const PathEndpoint* out,
+                       std::vector<ReceivedPiece>& received) const override;
+    void form(const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image) const override;
 
-/// Finds the columns of echoes. Echoes outside the grid get the power 0; returns their number.
-std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes);
+  private:
+    Beamformer amplitudes_, powers_;
+    ElementNoise noise_;
+};
 
-/// Adds powers to the real parts of the grid, shared between the four cells around each echo.
-void add_powers(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
-                EchoGrid& grid);
-/// The same for complex amplitudes. `mean`: a grid that receives the powers; null: none.
-void add_amplitudes(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
-                    const Amplitudes& amplitudes, EchoGrid& grid, EchoGrid* mean = nullptr);
-
-/// Adds the powers of echoes that return from another place than they were sent to. The columns and
-/// powers are those of `back`.
-inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*out*/,
-                                const PathEndpoint& back, EchoGrid& grid) {
-    add_powers(beams, back.places, back.echoes, grid);
-}
-
-/// Fills the image [bins, beams] with the powers of the beams. The grid holds `powers` or
-/// amplitudes. The noise of an element depends on the bin, the element and the key alone.
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-              std::span<const float> row_gain, std::span<float> image);
+/// `sines`: of the beams' azimuths. `noise`: [range bins, to a multiple of 8] the noise power in a
+/// beam. `taps`: the noise's filter along range.
+std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
+                                         std::span<const double> noise,
+                                         const std::vector<float>& taps);
 
 }  // namespace sonarsim

@@ -92,9 +92,7 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     out.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
     out.absorption_db_per_m = absorption_db_per_m(
         instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
-    out.pulse_length_m =
-        pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s)
-            .length_m;
+    out.pulse_length_m = pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s).length_m;
     out.grazing_rad = radians(beam.aperture == Aperture::piston ? 90.0 : grazing_deg);
     const auto two_way = [&](double u) { return square(square(line_pattern(out.along, u))); };
     if (beam.aperture == Aperture::piston) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "simulate/calibrated/particle_echoes.h"
+#include "core/elementary.h"
+#include "simulate/calibrated/kind_echoes.h"
 #include "simulate/calibrated/piece_strengths.h"
 #include "simulate/calibrated/reverberation.h"
 #include "simulate/calibrated/scatterer_search.h"
@@ -24,81 +24,127 @@ namespace {
 // For speckle that is drawn for each ping. The error of the tank's expected image is then 1.8 %.
 constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
-/// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
-template <class Beams>
+/// The steps that form an image, and their common data.
 class ImageFormer {
   public:
-    ImageFormer(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
-                const FormContext& context, Ping& ping)
+    ImageFormer(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
+                Ping& ping)
         : model_(model),
-          beams_(beams),
+          beams_(*model.beams),
+          traced_(traced),
           context_(context),
           scene_draws_(context.draws.of_scene(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
-          view_(widened_view(context.view, model.info.guard_beams)),
-          strengths_(traced, context.scene, view_.shape),
-          speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
+          form_(speckle_ == SpeckleMode::none ? PowerForm::power : PowerForm::amplitude),
+          samples_(traced.samples.items, form_ == PowerForm::power),
+          strengths_(traced, context.scene, context.view.shape),
+          speckle_gain_(model.amplitude_taps.scalloping_gain * beams_.scalloping_gain()),
           ping_(ping) {}
 
     /// Fills the image. Numbers in the comments are sections of docs/calibrated.md.
-    void form(const TracedPing& traced, std::span<float> mean_image) {
-        if (!mean_image.empty())
-            mean_ = std::make_unique<EchoGrid>(model_.equation.rows, columns_of(beams_));
-        EchoGrid grid(model_.equation.rows, columns_of(beams_));
-        const bool expected_power = speckle_ == SpeckleMode::none;
-        std::vector<Sample> targets;
+    void form(std::span<float> mean_image) {
+        EchoGrid grid(model_.equation.rows, beams_.columns());
+        if (!mean_image.empty()) mean_ = std::make_unique<EchoGrid>(grid);
 
-        // 1. Sonar equation: surface in view, in the guard beams and behind walls, multipath.
-        if (context_.terms.direct) {
-            add_surface(traced.samples.items, targets, grid);
-            add_surface(traced.outside_sector, targets, grid);
-            add_behind_walls(traced.behind_walls, grid);
-            if (model_.sediment) add_sediment(traced, grid);
-            add_water_surface(traced.water_surface, grid);
-            if (expected_power)
-                add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
-        }
-        if (context_.terms.multipath) add_multipath(traced, grid);
+        // 1. The sonar equation: powers or, with `speckle: scene`, amplitudes of scatterers.
+        if (context_.terms.direct) add_samples(grid);
+        if (context_.terms.multipath) add_multipath(grid);
 
-        // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
+        // 2. Speckle of the powers, and echoes with phases of their own.
         if (mean_ && speckle_ != SpeckleMode::scene) *mean_ = grid;
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
-        if (context_.terms.direct && !expected_power) {
-            add_targets(targets, grid);
-            add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
-                                    grid);
-            if (mean_) {
-                const PingCounts counted = ping_.counts;
-                add_pieces(targets, model_.limits, *mean_);
-                add_particle_powers(model_, beams_, traced.particles, ping_.counts, *mean_);
-                ping_.counts = counted;
-            }
-        }
+        if (context_.terms.direct && form_ == PowerForm::amplitude) add_own_phases(grid);
 
-        // 5. The water's volume. Bins with its echo alone count as empty.
-        const double bins_per_cell =  // the grid has guard beams, too
-            1.0 * context_.view.range_bins / grid.rows() * context_.view.beams / grid.columns();
-        ping_.counts.occupied_bins = static_cast<std::uint64_t>(
-            std::ceil(bins_per_cell * static_cast<double>(grid.occupied())));
-        const PowerForm form = expected_power ? PowerForm::power : PowerForm::amplitude;
-        if (context_.terms.direct && model_.water)
-            add_water(model_, traced, context_, form, speckle_gain_, grid, mean_.get());
-        receive(form, context_.terms.random > 1, ping_.intensity, grid);
-        if (mean_) receive(PowerForm::power, false, mean_image, *mean_);
+        // 3. The water. Bins with its echo alone count as empty.
+        count_occupied(grid);
+        if (context_.terms.direct && context_.terms.water && model_.water)
+            add_water(model_, traced_, context_, form_, speckle_gain_, grid, mean_.get());
+
+        // 4. Pulse and beams. 5. The receiver's noise and its gain.
+        receive(form_, context_.terms.random > 1, grid, ping_.intensity);
+        if (mean_) receive(PowerForm::power, false, *mean_, mean_image);
     }
 
   private:
-    /// 3. Pulse, beams; 4. the receiver's noise and its gain.
-    void receive(PowerForm form, bool noisy, std::span<float> image, EchoGrid& grid) const {
+    void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
         add_reverberation(model_.reverberation, form,
                           context_.draws.of(stream_named("reverberation")), grid);
-        beamform(beams_, grid, powers, noisy, context_.draws.of(Stream::receiver_noise),
-                 model_.row_gain, image);
+        beams_.form(grid, powers, noisy, context_.draws.of(Stream::receiver_noise), model_.row_gain,
+                    image);
+    }
+
+    void count_occupied(const EchoGrid& grid) {
+        const double bins_per_cell =  // the grid has guard beams, too
+            1.0 * context_.view.range_bins / grid.rows() * context_.view.beams / grid.columns();
+        ping_.counts.occupied_bins = static_cast<std::uint64_t>(
+            std::ceil(bins_per_cell * static_cast<double>(grid.occupied())));
+    }
+
+    /// Adds the echoes of all samples but those that have phases of their own.
+    void add_samples(EchoGrid& grid) {
+        for (const KindOfSample& kind : kinds_of_samples) {
+            const std::span<const Sample> samples = samples_.of(kind.kind);
+            if (samples.empty() || !(kind.is_surface || context_.terms.water)) continue;
+            if (kind.phase == PhaseSource::ping) {
+                add_drawn_by_ping(kind.stream, grid, [&](EchoGrid& powers) {
+                    add_pieces(kind.kind, samples, model_.limits, powers);
+                });
+            } else if (form_ == PowerForm::power) {
+                add_pieces(kind.kind, samples, model_.limits, grid);
+            } else if (kind.phase == PhaseSource::scene) {
+                add_surface(samples, grid);
+            }
+        }
+        if (model_.sediment) add_sediment(grid);
+    }
+
+    /// Adds the powers of the pieces of samples.
+    void add_pieces(SampleKind kind, std::span<const Sample> samples, const PointLimits& limits,
+                    EchoGrid& grid) {
+        PatchBlock block;
+        subdivide(samples, taper_shape(kind, context_.view.shape), limits, block,
+                  [&](PatchBlock& pieces) {
+                      find(kind, samples, pieces, &limits);
+                      beams_.deposit(pieces, echoes_, nullptr, grid, nullptr);
+                  });
+    }
+
+    /// Adds surface whose phases are those of the scene's scatterers.
+    void add_surface(std::span<const Sample> surface, EchoGrid& grid) {
+        if (speckle_ == SpeckleMode::ping) {
+            PointLimits limits = model_.limits;
+            limits.depth_m *= deeper_patches;
+            return add_pieces(SampleKind::surface, surface, limits, grid);
+        }
+        Scatterers block;
+        Amplitudes amplitudes;
+        find_scatterers(surface, context_.view.shape, model_.cells, sonar_, scene_draws_, block,
+                        [&](const Scatterers&) {
+                            find(SampleKind::surface, surface, block.pieces, nullptr);
+                            draw_amplitudes(block, echoes_, model_.cells, sonar_, scene_draws_,
+                                            amplitudes);
+                            beams_.deposit(block.pieces, echoes_, &amplitudes, grid, mean_.get());
+                        });
+    }
+
+    /// Computes the echoes of a block of pieces: levels, range bins and columns of the grid.
+    /// Surface has the strengths of its map and its texture. `limits`: those of
+    /// PieceStrengths::apply().
+    void find(SampleKind kind, std::span<const Sample> samples, PatchBlock& pieces,
+              const PointLimits* limits) {
+        const bool is_surface = kind_of(kind).is_surface;
+        ping_.counts.echoes += pieces.count;
+        ping_.counts.out_of_range += find_echoes(
+            kind, model_, is_surface ? surface_scattering() : model_.scattering, pieces, echoes_);
+        ping_.counts.out_of_range += beams_.find_columns(pieces, echoes_);
+        if (!is_surface) return;
+        strengths_.apply(samples, pieces, limits, echoes_.power);
+        model_.texture.apply(pieces, sonar_, scene_draws_, echoes_.power);
     }
 
     /// Without what comes from below sea beds.
@@ -106,25 +152,9 @@ class ImageFormer {
         return model_.sediment ? model_.sediment->surface : model_.scattering;
     }
 
-    /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
-    void find(const PatchBlock& patches, const Scattering& scattering) {
-        ping_.counts.echoes += patches.count;
-        ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, scattering, model_.equation, echoes_);
-        ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
-    }
-
-    /// The same for pieces of surface of the scene, with its map and its texture. `limits`: those
-    /// of PieceStrengths::apply().
-    void find(std::span<const Sample> surface, const PatchBlock& patches,
-              const PointLimits* limits) {
-        find(patches, surface_scattering());
-        strengths_.apply(surface, patches, limits, echoes_.power);
-        model_.texture.apply(patches, sonar_, scene_draws_, echoes_.power);
-    }
-
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
-    /// scene`.
+    /// scene`: parts of what lies behind walls overlap, waves move, and no mesh has the shape of a
+    /// reflector to a fraction of a wavelength.
     template <class Add>
     void add_drawn_by_ping(PhiloxKey key, EchoGrid& grid, Add add) {
         if (speckle_ != SpeckleMode::scene) return add(grid);
@@ -134,120 +164,39 @@ class ImageFormer {
         draw_speckle(powers, speckle_gain_, key);
         grid.add(powers);
     }
-
-    /// Adds the echo of surface behind thin walls. Its amplitudes are drawn for each ping: parts of
-    /// it overlap where walls do, and its phase depends on the walls to a fraction of a wavelength.
-    void add_behind_walls(std::span<const Sample> surface, EchoGrid& grid) {
-        if (surface.empty()) return;
-        const PhiloxKey key = context_.draws.of(stream_named("behind walls"));
-        add_drawn_by_ping(key, grid,
-                          [&](EchoGrid& powers) { add_pieces(surface, model_.limits, powers); });
+    template <class Add>
+    void add_drawn_by_ping(const char* stream, EchoGrid& grid, Add add) {
+        add_drawn_by_ping(context_.draws.of(stream_named(stream)), grid, add);
     }
 
-    /// Adds the echo of the water's surface, whose waves move from ping to ping. Its footprints are
-    /// taken for parallelograms.
-    void add_water_surface(std::span<const Sample> surface, EchoGrid& grid) {
-        if (surface.empty()) return;
-        const PhiloxKey key = context_.draws.of(stream_named("water surface"));
-        add_drawn_by_ping(key, grid, [&](EchoGrid& powers) {
-            PatchBlock block;
-            subdivide(surface, {}, model_.limits, block, [&](const PatchBlock& patches) {
-                find(patches, model_.scattering);
-                add_powers(beams_, patches, echoes_, powers);
-            });
-        });
-    }
-
-    /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
-    void add_sediment(const TracedPing& traced, EchoGrid& grid) {
+    /// Adds the echoes of the sediment below sea beds.
+    void add_sediment(EchoGrid& grid) {
         const SedimentScattering& sediment = *model_.sediment;
         std::vector<Sample> beds;
-        const auto keep = [&](const Sample& sample) {
-            if (sediment.has[sample.material]) beds.push_back(sample);
-        };
-        for (const std::span<const Sample> surface : traced.surfaces())
-            std::ranges::for_each(surface, keep);
+        for (const Sample& sample : traced_.samples.items) {
+            if (kind_of(sample.kind).is_surface && sediment.has[sample.material])
+                beds.push_back(sample);
+        }
         if (beds.empty()) return;
         EchoGrid energy(grid.rows(), grid.columns());
         EchoGrid lagged(grid.rows(), grid.columns());
         PatchBlock block;
-        subdivide(std::span<const Sample>(beds), view_.shape, model_.limits, block,
+        subdivide(std::span<const Sample>(beds), context_.view.shape, model_.limits, block,
                   [&](const PatchBlock& patches) {
                       apply_sonar_equation(patches, sediment.volume, model_.equation, echoes_);
                       strengths_.apply(beds, patches, &model_.limits, echoes_.power);
-                      find_columns(beams_, patches, echoes_);
-                      add_powers(beams_, patches, echoes_, energy);
+                      beams_.find_columns(patches, echoes_);
+                      beams_.deposit(patches, echoes_, nullptr, energy, nullptr);
                       weigh_by_lag(sediment, patches, model_.equation.bin_m, echoes_);
-                      add_powers(beams_, patches, echoes_, lagged);
+                      beams_.deposit(patches, echoes_, nullptr, lagged, nullptr);
                   });
         spread_below(lagged, energy);
-        add_drawn_by_ping(context_.draws.of(stream_named("sediment")), grid,
-                          [&](EchoGrid& powers) { powers.add(energy); });
+        add_drawn_by_ping("sediment", grid, [&](EchoGrid& powers) { powers.add(energy); });
     }
 
-    /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
-    /// scatterers, else the powers of its patches. With speckle it moves pieces of targets to
-    /// `targets` instead.
-    void add_surface(std::span<const Sample> surface, std::vector<Sample>& targets,
-                     EchoGrid& grid) {
-        const auto is_target = [](const Sample& sample) { return sample.region > 0; };
-        std::vector<Sample> others;
-        if (speckle_ != SpeckleMode::none && std::ranges::any_of(surface, is_target)) {
-            others.reserve(surface.size());
-            std::ranges::partition_copy(surface, std::back_inserter(targets),
-                                        std::back_inserter(others), is_target);
-            surface = others;
-        }
-        if (speckle_ == SpeckleMode::scene) {
-            Scatterers block;
-            Amplitudes amplitudes;
-            find_scatterers(
-                surface, view_.shape, model_.cells, sonar_, scene_draws_, block,
-                [&](const Scatterers& found) {
-                    find(surface, found.pieces, nullptr);
-                    draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_, amplitudes);
-                    add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid, mean_.get());
-                });
-            return;
-        }
-        PointLimits limits = model_.limits;
-        if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
-        add_pieces(surface, limits, grid);
-    }
-
-    /// Adds the powers of the pieces of a surface.
-    void add_pieces(std::span<const Sample> surface, const PointLimits& limits, EchoGrid& grid) {
-        PatchBlock block;
-        subdivide(surface, view_.shape, limits, block, [&](const PatchBlock& patches) {
-            find(surface, patches, &limits);
-            add_powers(beams_, patches, echoes_, grid);
-        });
-    }
-
-    /// Adds the amplitudes of the scatterers of targets.
-    void add_targets(std::span<const Sample> targets, EchoGrid& grid) {
-        std::vector<std::pair<std::uint64_t, std::size_t>> by_surface;
-        for (std::size_t k = 0; k < targets.size(); ++k) {
-            by_surface.emplace_back(std::uint64_t{targets[k].instance} << 32U | targets[k].region,
-                                    k);
-        }
-        std::ranges::sort(by_surface);
-        std::vector<Sample> pieces;
-        pieces.reserve(targets.size());
-        for (const auto& [surface, k] : by_surface)
-            pieces.push_back(targets[k]);
-        add_point_amplitudes(
-            model_, beams_,
-            join_targets(pieces, view_.shape, model_.target_cell, surface_scattering(),
-                         speckle_ == SpeckleMode::ping ? ping_draws_ : scene_draws_),
-            ping_.counts, grid);
-    }
-
-    /// With `speckle: scene` the amplitudes of multipath are drawn for each ping: their phase
-    /// depends on the shape of the reflector to a fraction of a wavelength, and no mesh is that
-    /// exact.
-    void add_multipath(const TracedPing& traced, EchoGrid& grid) {
-        const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene, view_.shape);
+    void add_multipath(EchoGrid& grid) {
+        const std::vector<SpecularPath> paths =
+            specular_paths(traced_, context_.scene, context_.view.shape);
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         add_drawn_by_ping(ping_draws_, grid, [&](EchoGrid& powers) {
@@ -255,20 +204,83 @@ class ImageFormer {
             const std::uint64_t outside_range = find_specular_echoes(
                 paths, model_.scattering.materials, model_.equation, model_.limits,
                 [&](const SpecularBlock& block) {
-                    outside_beams += find_columns(beams_, block.places, block.echoes);
-                    add_bistatic_powers(beams_, block.out, {block.places, block.echoes}, powers);
+                    outside_beams += beams_.find_columns(block.places, block.echoes);
+                    beams_.deposit_paths(block.out, {block.places, block.echoes}, powers);
                 });
             ping_.counts.out_of_range += outside_range + outside_beams;
         });
     }
 
+    /// Adds the amplitudes of samples that have phases of their own.
+    void add_own_phases(EchoGrid& grid) {
+        for (const KindOfSample& kind : kinds_of_samples) {
+            if (kind.phase != PhaseSource::own) continue;
+            const std::span<const Sample> samples = samples_.of(kind.kind);
+            if (samples.empty()) continue;
+            add_points(kind.kind == SampleKind::target ? joined(samples) : points_of(kind, samples),
+                       grid);
+            if (!mean_) continue;
+            const PingCounts counted = ping_.counts;
+            add_pieces(kind.kind, samples, model_.limits, *mean_);
+            ping_.counts = counted;
+        }
+    }
+
+    /// The scatterers of targets.
+    PointScatterers joined(std::span<const Sample> targets) const {
+        std::vector<std::pair<std::uint64_t, std::size_t>> by_surface;
+        for (std::size_t k = 0; k < targets.size(); ++k) {
+            by_surface.emplace_back(std::uint64_t{targets[k].instance} << 32U | targets[k].number,
+                                    k);
+        }
+        std::ranges::sort(by_surface);
+        std::vector<Sample> pieces;
+        pieces.reserve(targets.size());
+        for (const auto& [surface, k] : by_surface)
+            pieces.push_back(targets[k]);
+        return join_targets(pieces, context_.view.shape, model_.target_cell, surface_scattering(),
+                            speckle_ == SpeckleMode::ping ? ping_draws_ : scene_draws_);
+    }
+
+    PointScatterers points_of(const KindOfSample& kind, std::span<const Sample> samples) const {
+        const PhiloxKey key = context_.draws.of_scene(stream_named(kind.stream));
+        PointScatterers out{.points = {samples.begin(), samples.end()}, .turns = {}};
+        for (const Sample& sample : samples)
+            out.turns.push_back(unit_float(philox({sample.number, 0, 0, 0}, key).x0));
+        return out;
+    }
+
+    /// Adds the amplitudes of points. The phase of the path follows from the range.
+    void add_points(const PointScatterers& scatterers, EchoGrid& grid) {
+        Amplitudes amplitudes;
+        const double turns_per_m = 2.0 / model_.wavelength_m;
+        PatchBlock block;
+        subdivide(std::span(scatterers.points), {}, {}, block, [&](PatchBlock& points) {
+            find(SampleKind::particle, scatterers.points, points, nullptr);
+            for (int k = 0; k < points.count; ++k) {
+                const double way = turns_per_m * static_cast<double>(echoes_.range_m[k]);
+                const auto turns = static_cast<float>(way - std::floor(way));
+                const SinCosFloat phase = sincos_turns(scatterers.turns[points.sample[k]] + turns);
+                const float amplitude = std::sqrt(echoes_.power[k]);
+                amplitudes.re[k] = amplitude * phase.cos;
+                amplitudes.im[k] = amplitude * phase.sin;
+            }
+            // Echoes up to a whole vector are added, too.
+            for (int k = points.count; k < echoes_.count; ++k)
+                amplitudes.re[k] = amplitudes.im[k] = 0.0F;
+            beams_.deposit(points, echoes_, &amplitudes, grid, nullptr);
+        });
+    }
+
     const CalibratedModel& model_;
     const Beams& beams_;
+    const TracedPing& traced_;
     const FormContext& context_;
     PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
     SpeckleMode speckle_;
-    View view_;  ///< with the guard beams
+    PowerForm form_;         ///< the form of the grid
+    SamplesByKind samples_;  ///< without phases, targets are surface like any other
     PieceStrengths strengths_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
@@ -280,11 +292,7 @@ class ImageFormer {
 
 void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
                std::span<float> mean, Ping& ping) {
-    std::visit(
-        [&]<class Beams>(const Beams& of_model) {
-            ImageFormer<Beams>(model, of_model, traced, context, ping).form(traced, mean);
-        },
-        model.beams);
+    ImageFormer(model, traced, context, ping).form(mean);
 }
 
 }  // namespace sonarsim

@@ -6,7 +6,7 @@
 namespace sonarsim {
 
 /// The levels of an instrument in the unit of its source level, and the quantities from which
-/// `auto` levels follow; section 4 of docs/calibrated.md.
+/// `auto` levels follow; section 5 of docs/calibrated.md.
 struct InstrumentLevels {
     double source_level_db = 0.0;
     double noise_db = 0.0;       ///< power in a beam

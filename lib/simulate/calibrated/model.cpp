@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 #include <string_view>
-#include <variant>
 
 #include "core/elementary.h"
 #include "core/lanes.h"
@@ -14,6 +13,7 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/expected_echo.h"
 #include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/transducer_beams.h"
 #include "simulate/calibrated/water.h"
 
 namespace sonarsim {
@@ -59,12 +59,11 @@ GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
 }
 
 /// The size of patches that are points to the beams and to the bins.
-PointLimits point_limits(const BeamConfig& beam, const View& view,
-                         const std::variant<TransducerBeams, ArrayBeams>& beams) {
+PointLimits point_limits(const BeamConfig& beam, const View& view, const Beams& beams) {
     PointLimits limits{.depth_m = max_depth_by_bin * static_cast<float>(view.bin_m())};
     const double width = radians(beam.width_deg);
-    if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
-        limits.sine = max_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
+    if (const SineGrid* const sines = beams.sines()) {
+        limits.sine = max_sine_by_step * static_cast<float>(sines->step);
         limits.elevation_sine =
             static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
     } else if (beam.aperture == Aperture::head) {
@@ -135,9 +134,7 @@ void set_info(CalibratedModel& model, const View& view) {
     info.energies_add = true;
     info.map_strengths = MapStrengths::at_points;
     info.is_slow = true;
-    const int columns =
-        std::visit([](const auto& beams) { return columns_of(beams); }, model.beams);
-    const double grid_bytes = 2.0 * columns * model.equation.rows * sizeof(float);
+    const double grid_bytes = 2.0 * model.beams->columns() * model.equation.rows * sizeof(float);
     // Multipath has a grid of its own, sediment has two. Ranks of samples need the mean image.
     info.working_bytes = (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) +
                           (model.detected.changes() ? 1.0 : 0.0)) *
@@ -146,8 +143,8 @@ void set_info(CalibratedModel& model, const View& view) {
     if (std::ranges::max(model.noise_values) > 0.0F) info.mean_noise = model.noise_values;
     info.echo_gain.assign(model.row_gain.begin(), model.row_gain.end());
     info.cell.range_bins = model.target_cell.depth_m / view.bin_m();
-    if (model.cones.exist())
-        info.cell.beams = radians(model.instrument.beam.width_deg) / model.cones.mean_width();
+    if (const ConeBeams& cones = model.beams->cones; cones.exist())
+        info.cell.beams = radians(model.instrument.beam.width_deg) / cones.mean_width();
     info.raw_bits = receiver.bits;
     const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
     if (is_fan) info.white = white_of_fan(model.levels);
@@ -188,13 +185,13 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         row_noises(model.row_gain, noise, receiver.converter_noise_db);
     model.noise_values = noise_values(model.row_gain, row_noise);
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, sines.middles, row_noise, noise_filter);
-        model.cones = ConeBeams(sines.edges);
+        model.beams = array_beams(beam, sines, row_noise, noise_filter);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
-        model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, noise_filter);
+        model.beams = std::make_shared<TransducerBeams>(beam, view, model.wavelength_m, row_noise,
+                                                        noise_filter);
     }
-    model.limits = point_limits(beam, view, model.beams);
+    model.limits = point_limits(beam, view, *model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),
                       .bin_m = static_cast<float>(bin_m),
                       .rows = view.range_bins,
@@ -203,8 +200,10 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements,
                                                      beam.lobe_floor_db)};
-    model.water = water_column(water_of(water, instrument), instrument.frequency_hz, view,
-                               model.info.guard_beams, model.beams, model.equation);
+    View guarded = view;
+    guarded.guards = model.info.guard_beams;
+    model.water = water_column(water_of(water, instrument), instrument.frequency_hz, guarded,
+                               *model.beams, model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "core/pose.h"
@@ -19,7 +18,6 @@
 #include "simulate/calibrated/sonar_equation.h"
 #include "simulate/calibrated/specular_path.h"
 #include "simulate/calibrated/texture.h"
-#include "simulate/calibrated/transducer_beams.h"
 #include "simulate/calibrated/water_column.h"
 #include "simulate/trace/echo_model.h"
 #include "simulate/visibility/engine.h"
@@ -36,7 +34,7 @@ struct CalibratedModel final : EchoModel {
     ScattererCells cells;
     PointLimits target_cell;  ///< the pieces of a target within it are one scatterer
     RangeTaps amplitude_taps, power_taps;
-    std::variant<TransducerBeams, ArrayBeams> beams;
+    std::shared_ptr<const Beams> beams;
     Reverberation reverberation;
     DetectedSample detected;
     /// [range bins] The factor from the power of an echo to the value of the image.
@@ -44,7 +42,6 @@ struct CalibratedModel final : EchoModel {
     /// [range bins] The value of the receiver's mean noise.
     std::vector<float> noise_values;
     std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
-    ConeBeams cones;                   ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
@@ -70,11 +67,6 @@ struct CalibratedModel final : EchoModel {
                                     int beam) const override;
     void describe(nlohmann::ordered_json& sensor) const override;
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
-};
-
-/// The sines of the azimuths of a fan's beams, and of the edges between them.
-struct BeamSines {
-    std::vector<double> middles, edges;  ///< the edges are one more
 };
 
 /// Sets up the instrument of a sonar with this view; only a line array needs `sines`.

@@ -34,7 +34,9 @@ void PieceStrengths::apply(std::span<const Sample> surface, const PatchBlock& pi
     Eigen::Vector2d half_m = Eigen::Vector2d::Zero();
     for (int k = 0; k < pieces.count; ++k) {
         const Sample& sample = surface[pieces.sample[k]];
-        if (sample.region > 0 || !(power[k] > 0.0F) || !maps_->lie_on(sample.instance)) continue;
+        if (sample.kind == SampleKind::target || !(power[k] > 0.0F) ||
+            !maps_->lie_on(sample.instance))
+            continue;
         if (limits && &sample != last_sample) {
             last_sample = &sample;
             half_m = half_of_piece(sample, *limits);
@@ -45,7 +47,7 @@ void PieceStrengths::apply(std::span<const Sample> surface, const PatchBlock& pi
 }
 
 float PieceStrengths::at(const Sample& sample) const {
-    if (!maps_ || sample.region > 0) return 1.0F;
+    if (!maps_ || sample.kind == SampleKind::target) return 1.0F;
     return maps_->strength_over(sample.instance, ground_of(sample.position),
                                 Eigen::Vector2d::Zero());
 }

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-// The stages of a receiver after its beams and its gain; section 4 of docs/calibrated.md. Each is
+// The stages of a receiver after its beams and its gain; section 5 of docs/calibrated.md. Each is
 // off by default.
 
 /// True if any stage changes an image.

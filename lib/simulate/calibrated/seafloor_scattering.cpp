@@ -34,7 +34,6 @@ double gamma_function(double x) {
     return exponential(log_gamma(x));
 }
 
-
 /// `w2_cm4` is that of W(K) = w2 / (h K)^exponent with h = 1 cm, as in the report.
 double spectral_strength_of(double w2_cm4, double exponent) {
     return w2_cm4 * 1e-8 * power(100.0, exponent);

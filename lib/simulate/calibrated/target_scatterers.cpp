@@ -60,7 +60,7 @@ void join_surface(std::span<const Sums> pieces, const PointLimits& cell, const S
         cells.try_emplace(number, Sums::Zero()).first->second += sums;
     for (const auto& [number, sums] : cells) {
         const PhiloxBlock words =
-            philox({of.instance, of.region - 1, static_cast<std::uint32_t>(number),
+            philox({of.instance, of.number - 1, static_cast<std::uint32_t>(number),
                     static_cast<std::uint32_t>(number >> 32U)},
                    key);
         // 1 if the cell holds exactly the highlight.
@@ -91,7 +91,7 @@ PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
     std::vector<Sums> of_surface;
     for (std::size_t first = 0; first < pieces.size();) {
         const auto is_other = [&](const Sample& piece) {
-            return piece.instance != pieces[first].instance || piece.region != pieces[first].region;
+            return piece.instance != pieces[first].instance || piece.number != pieces[first].number;
         };
         const std::span<const Sample> rest = pieces.subspan(first);
         const auto count = std::ranges::find_if(rest, is_other) - rest.begin();

@@ -63,22 +63,6 @@ int steps_over(double extent, double step) {
     return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
 }
 
-/// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
-/// other sonars, whose directions are weighted by the whole pattern.
-double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, const View& view,
-                        double range_m) {
-    const auto* const sides = std::get_if<TransducerBeams>(&beams);
-    if (sides == nullptr || sides->sides.empty()) return 1.0;
-    const double up = sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin;
-    constexpr int steps = 512;
-    double sum = 0.0;
-    for (int k = 0; k < steps; ++k) {
-        const double sine = up * ((2.0 * k + 1.0) / steps - 1.0);
-        sum += std::norm(sides->along.at(static_cast<float>(sine), static_cast<float>(range_m)));
-    }
-    return sum / steps;
-}
-
 }  // namespace
 
 WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument) {
@@ -104,12 +88,11 @@ double volume_strength(const WaterConfig& water, double frequency_hz) {
     return content.strength + suspended_strength(content.suspended_mg_l, grain_um, wavenumber);
 }
 
-EqualDirections traced_directions(const View& view, const GuardBeams& guard_beams,
-                                  double step_rad) {
+EqualDirections traced_directions(const View& view, double step_rad) {
     // Equal steps of the sine to the plane across an axis, and of the turn about that axis, have
     // equal solid angles. The axis is x in a cone, else z.
     const bool cone = view.shape == ViewShape::cone;
-    const View wide = widened_view(view, guard_beams);
+    const View wide = widened_view(view);
     const SinCos half = sincos(std::min(0.5 * wide.elevation_rad, 0.5 * pi));
     const double first = cone ? half.cos : -half.sin;
     const double last = cone ? 1.0 : half.sin;
@@ -118,7 +101,7 @@ EqualDirections traced_directions(const View& view, const GuardBeams& guard_beam
     if (cone) rows = rings;
     if (view.shape == ViewShape::port_starboard) rows = rows_of_sides;
     const int columns = cone ? ring_turns : steps_over(turn, step_rad);
-    const GuardedField field(view, guard_beams);
+    const GuardedField field(view);
     EqualDirections out{.all = {},
                         .each_sr = static_cast<float>((last - first) * turn / rows / columns)};
     for (int i = 0; i < rows; ++i) {
@@ -136,8 +119,7 @@ EqualDirections traced_directions(const View& view, const GuardBeams& guard_beam
 }
 
 std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
-                                        const View& view, const GuardBeams& guard_beams,
-                                        const std::variant<TransducerBeams, ArrayBeams>& beams,
+                                        const View& view, const Beams& beams,
                                         const SonarEquation& equation) {
     const double strength = volume_strength(water, frequency_hz);
     if (strength == 0.0 && water.layers.empty()) return std::nullopt;
@@ -152,19 +134,18 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
              .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
     }
     double step_rad = 0.5 * row_rad;
-    if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
-        const double sine = fan->amplitudes.grid().step;
-        out.joined_columns = std::max(static_cast<int>(channel_sine / sine), 1);
-        step_rad = 0.5 * out.joined_columns * sine;
+    if (const SineGrid* const sines = beams.sines()) {
+        out.joined_columns = std::max(static_cast<int>(channel_sine / sines->step), 1);
+        step_rad = 0.5 * out.joined_columns * sines->step;
     }
-    out.directions = traced_directions(view, guard_beams, step_rad);
+    out.directions = traced_directions(view, step_rad);
     const int padded = (equation.rows + lanes - 1) / lanes * lanes;
     out.row_power.resize(padded);
     for (int row = 0; row < equation.rows; ++row) {
         const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
         const double loss = equation.loss_per_m * range_m - equation.ln_headroom;
         const double power = equation.bin_m / (range_m * range_m) * exponential(-loss) *
-                             mean_along_track(beams, view, range_m);
+                             beams.mean_along_track(view, range_m);
         out.row_power[row] = static_cast<float>(std::min<double>(power, max_echo));
     }
     return out;

@@ -2,12 +2,10 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "input/mission/mission.h"
-#include "simulate/calibrated/array_beams.h"
-#include "simulate/calibrated/transducer_beams.h"
+#include "simulate/calibrated/beams.h"
 #include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {
@@ -41,9 +39,9 @@ struct EqualDirections {
 };
 
 /// The directions in which surface is traced, at most `step_rad` of azimuth apart.
-EqualDirections traced_directions(const View& view, const GuardBeams& guard_beams, double step_rad);
+EqualDirections traced_directions(const View& view, double step_rad);
 
-/// The water's volume scattering, ready for the pings of a sonar; section 5 of docs/calibrated.md.
+/// The water's volume scattering, ready for the pings of a sonar; section 3 of docs/calibrated.md.
 struct WaterColumn {
     struct Layer {
         float top_m, bottom_m;  ///< below the water's surface
@@ -59,8 +57,7 @@ struct WaterColumn {
 
 /// Nothing if no water scatters. `water`: from water_of(). `view`: with a bin for each sample.
 std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
-                                        const View& view, const GuardBeams& guard_beams,
-                                        const std::variant<TransducerBeams, ArrayBeams>& beams,
+                                        const View& view, const Beams& beams,
                                         const SonarEquation& equation);
 
 }  // namespace sonarsim

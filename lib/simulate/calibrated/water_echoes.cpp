@@ -9,6 +9,7 @@
 
 #include "simulate/calibrated/patches.h"
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
 
@@ -32,7 +33,7 @@ class ReceivedWater {
   public:
     ReceivedWater(const CalibratedModel& model, const TracedPing& traced, const Scene& scene)
         : model_(model),
-          fan_(std::get_if<ArrayBeams>(&model.beams)),
+          sines_(model.beams->sines()),
           limits_(model.limits),
           down_(-traced.T_world_sensor.rotation.toRotationMatrix().row(2).cast<float>()),
           depth_m_(scene.water_surface ? static_cast<float>(scene.water_surface->height_m -
@@ -40,17 +41,15 @@ class ReceivedWater {
                                        : deep_m),
           bins_per_m_(1.0F / model.equation.bin_m) {
         limits_.depth_m = 0.0F;
-        if (fan_) {
-            const SineGrid& grid = fan_->amplitudes.grid();
+        if (sines_) {
             const int joined = model.water->joined_columns;
-            channels_ = (grid.columns - 1) / joined + 2;
-            first_sine_ = static_cast<float>(grid.first);
-            channels_per_sine_ = static_cast<float>(1.0 / (joined * grid.step));
+            channels_ = (sines_->columns - 1) / joined + 2;
+            first_sine_ = static_cast<float>(sines_->first);
+            channels_per_sine_ = static_cast<float>(1.0 / (joined * sines_->step));
             limits_.sine = 0.5F / channels_per_sine_;
         } else {
-            const auto& beams = std::get<TransducerBeams>(model.beams);
-            channels_ = beams.beams();
-            if (!beams.sides.empty()) limits_.elevation_sine = 0.0F;
+            channels_ = model.beams->columns();
+            if (has_sides()) limits_.elevation_sine = 0.0F;
         }
         sums_.resize(channels_ * stride());
         far_.count = 1;
@@ -58,7 +57,6 @@ class ReceivedWater {
         for (const Eigen::Vector3f& direction : model.water->directions.all)
             add(direction, 0.0F, model.water->directions.each_sr);
         end_at(traced.samples.items);
-        end_at(traced.outside_sector);
         for (int channel = 0; channel < channels_; ++channel) {
             float* const channel_sums = sums_.data() + channel * stride();
             std::partial_sum(channel_sums, channel_sums + stride(), channel_sums);
@@ -80,12 +78,14 @@ class ReceivedWater {
     }
 
   private:
+    bool has_sides() const { return model_.instrument.beam.aperture == Aperture::port_starboard; }
     // One more row, for the part of a border in the last bin that belongs to the next.
     std::size_t stride() const { return model_.equation.rows + std::size_t{1}; }
 
     /// Takes away the water behind surface.
     void end_at(std::span<const Sample> surface) {
         for (const Sample& sample : surface) {
+            if (!kind_of(sample.kind).hides) continue;
             const auto [range, direction] = arrival_of(sample.position);
             if (!(range > 0.0F)) continue;
             const int rows = patches_along(extents_of(sample.edge_u, direction), range, limits_);
@@ -131,7 +131,7 @@ class ReceivedWater {
     /// The channels that receive sound from a direction.
     std::array<ChannelShare, 2> shares_of(const Eigen::Vector3f& direction) {
         std::array<ChannelShare, 2> out{};
-        if (fan_) {
+        if (sines_) {
             const float at = (direction.y() - first_sine_) * channels_per_sine_;
             const int first = static_cast<int>(at);
             const float next = at - static_cast<float>(first);
@@ -139,14 +139,13 @@ class ReceivedWater {
                 out = {{{first, 1.0F - next}, {first + 1, next}}};
             return out;
         }
-        const auto& beams = std::get<TransducerBeams>(model_.beams);
         far_.x[0] = far_m * direction.x();
         far_.y[0] = far_m * direction.y();
         // A side-scan sonar's pattern along the track is in row_power.
-        far_.z[0] = beams.sides.empty() ? far_m * direction.z() : 0.0F;
+        far_.z[0] = has_sides() ? 0.0F : far_m * direction.z();
         PatchBlock::Array<float> gain;
         for (int beam = 0; beam < channels_; ++beam) {
-            find_gains(beams, beam, far_, far_echo_, gain);
+            model_.beams->find_gains(beam, far_, far_echo_, gain);
             out[beam] = {beam, gain[0]};
         }
         return out;
@@ -165,7 +164,7 @@ class ReceivedWater {
     }
 
     const CalibratedModel& model_;
-    const ArrayBeams* fan_;    ///< null: transducers
+    const SineGrid* sines_;    ///< the sines of a line array; null: transducers
     PointLimits limits_;       ///< for pieces of surface
     Eigen::RowVector3f down_;  ///< sensor frame
     float depth_m_;            ///< the sonar's

@@ -235,12 +235,11 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
                       const SceneObjects& objects, const VisibilityEngine& engine,
                       const LabelRequest& request) {
     PingLabels labels = label_group(traced, settings, scene, objects, engine, request);
-    for (std::size_t k = 0; k < traced.later_groups.size(); ++k) {
+    for (int group = 1; group < traced.groups(); ++group) {
         const PingLabels later =
-            label_group(traced.later_groups[k], settings, scene, objects, engine, request);
+            label_group(traced.group(group), settings, scene, objects, engine, request);
         for (int beam = 0; beam < labels.beams; ++beam) {
-            if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
-                copy_beam(later, beam, request, labels);
+            if (traced.transmits(group, beam)) copy_beam(later, beam, request, labels);
         }
     }
     return labels;

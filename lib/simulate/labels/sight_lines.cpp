@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
 
@@ -59,12 +60,11 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
         if (keep(line)) lines.push_back(line);
     };
     if (echoes.cones.exist()) {
-        for (const std::vector<Sample>* const all : {&samples.items, &traced.outside_sector}) {
-            for (const Sample& sample : *all) {
-                const Arrival place = arrival_of(sample.position);
-                if (const int beam = echoes.cones.beam(place.direction.y()); beam >= 0)
-                    add(sample, place, beam);
-            }
+        for (const Sample& sample : samples.items) {
+            if (!kind_of(sample.kind).hides) continue;
+            const Arrival place = arrival_of(sample.position);
+            if (const int beam = echoes.cones.beam(place.direction.y()); beam >= 0)
+                add(sample, place, beam);
         }
         return lines;
     }

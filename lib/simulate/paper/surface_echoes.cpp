@@ -37,11 +37,12 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene, Ec
     // Room for most pings, since arrays that grow are copied.
     constexpr std::size_t pieces_per_sample = 8;
     Echoes echoes;
-    echoes.resize(pieces_per_sample * samples.items.size(), false);
+    const std::span<const Sample> surface = samples.in_beams();
+    echoes.resize(pieces_per_sample * surface.size(), false);
     std::vector<std::uint32_t> ends;
-    ends.reserve(samples.items.size());
-    direct_echoes(samples.items, scene.materials, static_cast<float>(view.bin_m()),
-                  ScattererLattice{}, echoes, &ends);
+    ends.reserve(surface.size());
+    direct_echoes(surface, scene.materials, static_cast<float>(view.bin_m()), ScattererLattice{},
+                  echoes, &ends);
     std::vector<std::uint32_t> beam_begin;
     for (const std::uint32_t begin : samples.beam_begin)
         beam_begin.push_back(begin > 0 ? ends[begin - 1] : 0);
@@ -49,7 +50,7 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene, Ec
     const auto surface_of = [&](std::uint32_t k) {
         while (ends[sample] <= k)
             ++sample;
-        return std::pair(&samples.items[sample], no_instance);
+        return std::pair(&surface[sample], no_instance);
     };
     add_all(echoes, beam_begin, surface_of, blocks);
 }

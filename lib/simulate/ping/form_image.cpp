@@ -27,18 +27,18 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
     Ping ping = form_group(traced, settings, scene, key, terms);
-    for (std::size_t k = 0; k < traced.later_groups.size(); ++k) {
-        const Ping later = form_group(traced.later_groups[k], settings, scene, key, terms);
+    for (int group = 1; group < traced.groups(); ++group) {
+        const Ping later = form_group(traced.group(group), settings, scene, key, terms);
         for (std::size_t at = 0; at < ping.intensity.size(); ++at) {
-            const std::size_t beam = at % static_cast<std::size_t>(ping.beams);
-            if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
+            if (traced.transmits(group,
+                                 static_cast<int>(at % static_cast<std::size_t>(ping.beams))))
                 ping.intensity[at] = later.intensity[at];
         }
         ping.counts += later.counts;
         ping.seconds += later.seconds;
     }
     // Each group is traced with all beams and gives its own to the image.
-    divide(ping.counts, traced.later_groups.size() + 1);
+    divide(ping.counts, static_cast<std::size_t>(traced.groups()));
     return ping;
 }
 

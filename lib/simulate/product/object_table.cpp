@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "simulate/product/object_masks.h"
+#include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
 
@@ -94,13 +95,15 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
         box.extend(sample.position - reach);
         box.extend(sample.position + reach);
     };
-    if (traced.later_groups.empty()) {
-        for (const std::span<const Sample> surface : traced.surfaces())
-            std::ranges::for_each(surface, extend);
+    if (traced.groups() == 1) {
+        for (const Sample& sample : traced.samples.items) {
+            if (kind_of(sample.kind).is_surface) extend(sample);
+        }
         return boxes;
     }
-    const auto extend_by_group = [&](const TracedPing& group, int number) {
-        const Eigen::Quaterniond to_first = traced.T_world_sensor.rotation.conjugate();
+    const Eigen::Quaterniond to_first = traced.T_world_sensor.rotation.conjugate();
+    for (int number = 0; number < traced.groups(); ++number) {
+        const TracedPing& group = traced.group(number);
         const Eigen::Matrix3f turn =
             (to_first * group.T_world_sensor.rotation).toRotationMatrix().cast<float>();
         const Eigen::Vector3f shift =
@@ -112,15 +115,14 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
             sample.edge_v = turn * sample.edge_v;
             extend(sample);
         };
-        for (std::size_t j = 0; j < traced.group_of_beam.size(); ++j) {
-            if (traced.group_of_beam[j] == number)
-                std::ranges::for_each(group.samples.beam(static_cast<int>(j)), extend_turned);
+        for (int beam = 0; beam < std::ssize(traced.group_of_beam); ++beam) {
+            if (traced.transmits(number, beam))
+                std::ranges::for_each(group.samples.beam(beam), extend_turned);
         }
-        std::ranges::for_each(group.behind_walls, extend_turned);
-    };
-    extend_by_group(traced, 0);
-    for (std::size_t k = 0; k < traced.later_groups.size(); ++k)
-        extend_by_group(traced.later_groups[k], static_cast<int>(k) + 1);
+        for (const Sample& sample : group.samples.in_no_beam()) {
+            if (sample.kind == SampleKind::behind_wall) extend_turned(sample);
+        }
+    }
     return boxes;
 }
 

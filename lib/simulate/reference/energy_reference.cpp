@@ -52,10 +52,7 @@ class EnergyImage {
         traced_.T_world_sensor = T_world_sensor;
         traced_.samples.items = targets.pieces;
         assign_to_first_beam();
-        if (scene.maps) {
-            apply_maps(*scene.maps, settings.view, T_world_sensor, traced_.samples,
-                       traced_.outside_sector);
-        }
+        if (scene.maps) apply_maps(*scene.maps, settings.view, T_world_sensor, traced_.samples);
     }
 
     void add(const SurfacePoint& point) {
@@ -63,7 +60,7 @@ class EnergyImage {
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
         add_area(position, point.range_m, point.area_m2);
         if (targets_.has(point.facet.instance)) return;
-        if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
+        if (settings_.view.guards.count > 0 && !in_array_cones(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
         sample.position = position;
         sample.edge_u.setZero();
@@ -101,11 +98,12 @@ class EnergyImage {
     }
 
     /// Adds the points behind the walls among the collected ones.
-    void add_behind_walls() {
-        traced_.behind_walls = surface_behind_walls(
-            settings_.wall_transmissions, {settings_.view, scene_, rays_, traced_.T_world_sensor},
-            {traced_.samples.items});
-        for (Sample& sample : traced_.behind_walls) {
+    void follow_through_walls() {
+        std::vector<Sample>& items = traced_.samples.items;
+        const std::size_t points = items.size();
+        add_behind_walls(settings_.wall_transmissions,
+                         {settings_.view, scene_, rays_, traced_.T_world_sensor}, traced_.samples);
+        for (Sample& sample : std::span(items).subspan(points)) {
             const float range = arrival_range(sample.position);
             add_area(sample.position, static_cast<double>(range),
                      static_cast<double>(sample.area_m2));
@@ -127,8 +125,8 @@ class EnergyImage {
     void form() {
         if (traced_.samples.items.empty()) return;
         assign_to_first_beam();
-        add_behind_walls();
-        const Ping ping = form_image(traced_, settings_, scene_, {}, direct_echoes_alone);
+        follow_through_walls();
+        const Ping ping = form_image(traced_, settings_, scene_, {}, surface_alone);
         for (std::size_t k = 0; k < sum_.size(); ++k)
             sum_[k] += static_cast<double>(ping.intensity[k]);
         traced_.samples.items.clear();
@@ -151,14 +149,13 @@ class EnergyImage {
 Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                 const PingSettings& settings, const Pose& T_world_sensor,
                                 const ReferenceGoal& goal) {
-    const View view = widened_view(settings.view, settings.guard_beams);
+    const View view = widened_view(settings.view);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const SingleRays rays(caster, scene.origin);
     TargetSurface targets;
     if (settings.targets) {
-        targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
-                                 rays, T_world_sensor);
+        targets = target_surface(*settings.targets, settings.view, scene, rays, T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](const RayLayout& layout) -> CastResult {

@@ -22,10 +22,10 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     PingSettings& settings = sonar.settings;
     settings.model = make_echo_model(sonar, kind, water);
     settings.view.energies_add = settings.model->info.energies_add;
-    settings.guard_beams = settings.model->info.guard_beams;
+    settings.view.guards = settings.model->info.guard_beams;
     settings.map_strengths = settings.model->info.map_strengths;
     // Multipath starts at the samples, so it needs those of every beam.
-    if (settings.multipath.on) settings.guard_beams.joined = 1;
+    if (settings.multipath.on) settings.view.guards.joined = 1;
     settings.multipath.scattered = settings.model->info.needs_scattered_paths;
     return sonar;
 }
@@ -67,9 +67,8 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
     TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
-        traced.particles =
-            visible_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
-                              engine, T_world_sensor, motion);
+        add_particles(*particles, time_s, sonar.settings.view, engine, T_world_sensor, motion,
+                      traced.samples);
     }
     return traced;
 }

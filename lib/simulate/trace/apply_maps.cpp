@@ -64,7 +64,8 @@ class GroundMapApplier {
 
     /// Appends the pieces of a sample.
     void apply(const Sample& sample, std::vector<Sample>& out) {
-        with_strength_ = strengths_ == MapStrengths::in_samples || sample.region > 0;
+        with_strength_ =
+            strengths_ == MapStrengths::in_samples || sample.kind == SampleKind::target;
         if (!maps_.lie_on(sample.instance) || !(with_strength_ || maps_.have_materials())) {
             out.push_back(sample);
             return;
@@ -180,8 +181,7 @@ class GroundMapApplier {
 }  // namespace
 
 void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                Samples& samples, std::vector<Sample>& outside_sector, const SoundProfile* profile,
-                MapStrengths strengths) {
+                Samples& samples, const SoundProfile* profile, MapStrengths strengths) {
     GroundMapApplier layer(maps, view, T_world_sensor, profile, strengths);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
@@ -193,11 +193,9 @@ void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_se
         begin = end;
         samples.beam_begin[beam + 1] = static_cast<std::uint32_t>(items.size());
     }
+    for (std::size_t k = begin; k < samples.items.size(); ++k)
+        layer.apply(samples.items[k], items);
     samples.items = std::move(items);
-    std::vector<Sample> outside;
-    for (const Sample& sample : outside_sector)
-        layer.apply(sample, outside);
-    outside_sector = std::move(outside);
 }
 
 MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,

@@ -21,8 +21,7 @@ enum class MapStrengths {
 /// the surface as the samples did, and a bin's echo is the mean over the area that it sees.
 /// `profile` bends the sound, if not null.
 void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                Samples& samples, std::vector<Sample>& outside_sector,
-                const SoundProfile* profile = nullptr,
+                Samples& samples, const SoundProfile* profile = nullptr,
                 MapStrengths strengths = MapStrengths::in_samples);
 
 /// The material and strength of a point in the sensor frame.

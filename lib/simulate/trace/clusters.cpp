@@ -101,7 +101,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
     const auto range_max = static_cast<float>(view.range_max_m);
     Clusters clusters;
     if (limits.epsilon_bins == 0) {
-        for (std::uint32_t i = 0; i < samples.items.size(); ++i) {
+        for (std::uint32_t i = 0; i < samples.in_beams().size(); ++i) {
             const float range = arrival_range(samples.items[i].position);
             if (range > 0.0F && range < range_max) clusters.members.push_back(i);
         }

@@ -56,7 +56,7 @@ struct EchoModelInfo {
     /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from
     /// pings.
     double white = 0.0;
-    /// The transmissions of surface_behind_walls(), if the model is prepared for a scene.
+    /// The transmissions of add_behind_walls(), if the model is prepared for a scene.
     std::vector<float> wall_transmissions = {};
     int raw_bits = 0;  ///< number of bits of a value in raw/ and raw.npy; 0: no raw values
 };

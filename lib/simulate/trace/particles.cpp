@@ -25,12 +25,12 @@ void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
 
 }  // namespace
 
-SeenParticles visible_particles(const Particles& particles, double time_s, const View& view,
-                                const GuardBeams& guard_beams, const VisibilityEngine& engine,
-                                const Pose& T_world_sensor, const PingMotion& motion) {
-    const GuardedField field(view, guard_beams);
+void add_particles(const Particles& particles, double time_s, const View& view,
+                   const VisibilityEngine& engine, const Pose& T_world_sensor,
+                   const PingMotion& motion, Samples& samples) {
+    const GuardedField field(view);
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
-    SeenParticles found;
+    std::vector<Sample> points;
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
         const Particle& particle = particles.all[k];
@@ -41,30 +41,24 @@ SeenParticles visible_particles(const Particles& particles, double time_s, const
             !field.contains(place))
             continue;
         rays.push_back({Eigen::Vector3f::Zero(), place / range});
-        found.numbers.push_back(k);
-        found.samples.push_back({.position = place,
-                                 .edge_u = Eigen::Vector3f::Zero(),
-                                 .edge_v = Eigen::Vector3f::Zero(),
-                                 .normal = -place / range,
-                                 .height_m = range,
-                                 .area_m2 = particle.section_m2,
-                                 .material = particle.material,
-                                 .instance = particle.instance});
+        points.push_back({.position = place,
+                          .edge_u = Eigen::Vector3f::Zero(),
+                          .edge_v = Eigen::Vector3f::Zero(),
+                          .normal = -place / range,
+                          .height_m = range,
+                          .area_m2 = particle.section_m2,
+                          .material = particle.material,
+                          .instance = particle.instance,
+                          .number = k,
+                          .kind = SampleKind::particle});
     }
     std::vector<Intersection> hits(rays.size());
     engine.intersect(T_world_sensor, rays, hits);
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        Sample& sample = found.samples[k];
-        if (hits[k].distance_m < sample.height_m) continue;
-        if (!motion.is_still()) move_point(motion, view.shape, sample);
-        found.samples[kept] = sample;
-        found.numbers[kept] = found.numbers[k];
-        ++kept;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (hits[k].distance_m < points[k].height_m) continue;
+        samples.items.push_back(points[k]);
+        if (!motion.is_still()) move_point(motion, view.shape, samples.items.back());
     }
-    found.samples.resize(kept);
-    found.numbers.resize(kept);
-    return found;
 }
 
 }  // namespace sonarsim

@@ -32,16 +32,10 @@ struct Particles {
 /// The place of a particle, world.
 Eigen::Vector3d place_at(const Particle& particle, double time_s);
 
-/// The particles that a ping reaches.
-struct SeenParticles {
-    /// Points: without edges, with the cross-section as their area, facing the sonar.
-    std::vector<Sample> samples;
-    std::vector<std::uint32_t> numbers;  ///< index of each into Particles::all
-};
-
-/// The particles in view that no surface hides. One ray tests each.
-SeenParticles visible_particles(const Particles& particles, double time_s, const View& view,
-                                const GuardBeams& guard_beams, const VisibilityEngine& engine,
-                                const Pose& T_world_sensor, const PingMotion& motion);
+/// Adds the particles in view that no surface hides. One ray tests each. Their samples are points:
+/// without edges, with the cross-section as their area, facing the sonar.
+void add_particles(const Particles& particles, double time_s, const View& view,
+                   const VisibilityEngine& engine, const Pose& T_world_sensor,
+                   const PingMotion& motion, Samples& samples);
 
 }  // namespace sonarsim

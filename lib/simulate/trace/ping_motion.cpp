@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/elementary.h"
+#include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
 
@@ -51,24 +52,21 @@ int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
     return beam >= 0.0 && beam < view.beams ? static_cast<int>(beam) : -1;
 }
 
-/// Sorts the samples of a fan and those of `outside_sector` into the beams of their azimuths.
-/// Samples outside the sector end in `outside_sector`.
-void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
+/// Sorts the visible surface of a fan into the beams of its azimuths.
+void sort_into_beams(const View& view, Samples& samples) {
     if (view.shape != ViewShape::fan) return;
     std::vector<std::vector<Sample>> beam_samples(view.beams);
     std::vector<Sample> outside;
-    for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
-        for (const Sample& sample : *all) {
-            const int beam = beam_by_azimuth(view, sample.position);
-            (beam < 0 ? outside : beam_samples[beam]).push_back(sample);
-        }
+    for (const Sample& sample : samples.items) {
+        const int beam = kind_of(sample.kind).hides ? beam_by_azimuth(view, sample.position) : -1;
+        (beam < 0 ? outside : beam_samples[beam]).push_back(sample);
     }
     samples.items.clear();
     for (int j = 0; j < view.beams; ++j) {
         samples.items.insert(samples.items.end(), beam_samples[j].begin(), beam_samples[j].end());
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }
-    outside_sector = std::move(outside);
+    samples.items.insert(samples.items.end(), outside.begin(), outside.end());
 }
 
 }  // namespace
@@ -119,17 +117,11 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
     return s + length * d;
 }
 
-void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
-                  std::vector<Sample>& outside_sector) {
-    move_in_ping(motion, view.shape, samples.items);
-    move_in_ping(motion, view.shape, outside_sector);
-    if (!motion.is_still()) sort_into_beams(view, samples, outside_sector);
-}
-
-void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<Sample>& samples) {
+void move_in_ping(const PingMotion& motion, const View& view, Samples& samples) {
     if (motion.is_still()) return;
-    for (Sample& sample : samples)
-        sample = moved(motion, shape, sample);
+    for (Sample& sample : samples.items)
+        sample = moved(motion, view.shape, sample);
+    sort_into_beams(view, samples);
 }
 
 }  // namespace sonarsim

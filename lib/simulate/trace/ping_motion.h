@@ -42,11 +42,8 @@ Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured);
 
-/// Moves the visible surface of a sonar at rest to where the moving sonar measures it. The samples
-/// of a fan are then sorted into beams again.
-void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
-                  std::vector<Sample>& outside_sector);
-/// The same for samples in no beams.
-void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<Sample>& samples);
+/// Moves the samples of a sonar at rest to where the moving sonar measures them. The visible
+/// surface of a fan is then sorted into beams again.
+void move_in_ping(const PingMotion& motion, const View& view, Samples& samples);
 
 }  // namespace sonarsim

@@ -75,11 +75,8 @@ struct SightRay {
 /// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
-    TargetSampler(const View& view, const GuardBeams& guard_beams, const Scene& scene)
-        : view_(view),
-          field_(view, guard_beams),
-          volume_(widened_view(view, guard_beams), Pose{}),
-          maps_(scene.maps.get()) {
+    TargetSampler(const View& view, const Scene& scene)
+        : view_(view), field_(view), volume_(widened_view(view), Pose{}), maps_(scene.maps.get()) {
         for (const Material& material : scene.materials)
             slopes_.push_back(static_cast<float>(facet_slope(material)));
     }
@@ -142,7 +139,8 @@ class TargetSampler {
             curvature_m_ = side * scale * triangle.curvature_m;
             slope_ = is_mapped ? placed.min_slope : slopes_[triangle.material];
             piece_.material = triangle.material;
-            piece_.region = triangle.region + 1;
+            piece_.kind = SampleKind::target;
+            piece_.number = triangle.region + 1;
             const auto corner = [&](int k) {
                 return Corner(place(k), side * (R * triangle.normals[k]));
             };
@@ -257,11 +255,10 @@ Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
 
 }  // namespace
 
-TargetSurface target_surface(const TargetShapes& shapes, const View& view,
-                             const GuardBeams& guard_beams, const Scene& scene,
+TargetSurface target_surface(const TargetShapes& shapes, const View& view, const Scene& scene,
                              const VisibilityEngine& engine, const Pose& T_world_sensor) {
     TargetSurface out;
-    TargetSampler sampler(view, guard_beams, scene);
+    TargetSampler sampler(view, scene);
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
@@ -274,28 +271,29 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view,
     return out;
 }
 
-void replace_samples(const TargetSurface& targets, const View& view, VisibleSurface& surface) {
+void replace_samples(const TargetSurface& targets, const View& view, Samples& samples) {
     if (targets.instances.empty()) return;
     const auto is_replaced = [&](const Sample& sample) { return targets.has(sample.instance); };
-    std::erase_if(surface.outside_sector, is_replaced);
+    std::vector<Sample> outside;
+    std::ranges::remove_copy_if(samples.in_no_beam(), std::back_inserter(outside), is_replaced);
     const BeamLocator field(view);
     std::vector<std::uint32_t> beam_of_piece;
     for (const Sample& piece : targets.pieces) {
         const float beam = field.beam(piece.position, arrival_range(piece.position));
-        if (beam < 0.0F) surface.outside_sector.push_back(piece);
+        if (beam < 0.0F) outside.push_back(piece);
         beam_of_piece.push_back(beam < 0.0F ? no_group : static_cast<std::uint32_t>(beam));
     }
     const Groups by_beam = sort_into_groups(beam_of_piece, view.beams);
-    Samples merged{.items = {}, .beam_begin = {0}, .dropped = surface.samples.dropped};
-    merged.items.reserve(surface.samples.items.size() + targets.pieces.size());
+    Samples merged{.items = {}, .beam_begin = {0}, .dropped = samples.dropped};
+    merged.items.reserve(samples.items.size() + targets.pieces.size());
     for (int j = 0; j < view.beams; ++j) {
-        std::ranges::remove_copy_if(surface.samples.beam(j), std::back_inserter(merged.items),
-                                    is_replaced);
+        std::ranges::remove_copy_if(samples.beam(j), std::back_inserter(merged.items), is_replaced);
         for (std::uint32_t k = by_beam.begin[j]; k < by_beam.begin[j + 1]; ++k)
             merged.items.push_back(targets.pieces[by_beam.items[k]]);
         merged.beam_begin.push_back(static_cast<std::uint32_t>(merged.items.size()));
     }
-    surface.samples = std::move(merged);
+    merged.items.insert(merged.items.end(), outside.begin(), outside.end());
+    samples = std::move(merged);
 }
 
 }  // namespace sonarsim

@@ -50,11 +50,10 @@ struct TargetSurface {
 /// or their highlights are few resolution cells across. Their triangles are cut into pieces, each
 /// with the place, the normal and the area of the curved surface that the mesh stands for. A piece
 /// is seen if a ray from the sonar reaches it. The result does not depend on the engine.
-TargetSurface target_surface(const TargetShapes& shapes, const View& view,
-                             const GuardBeams& guard_beams, const Scene& scene,
+TargetSurface target_surface(const TargetShapes& shapes, const View& view, const Scene& scene,
                              const VisibilityEngine& engine, const Pose& T_world_sensor);
 
 /// Replaces an engine's samples of these objects.
-void replace_samples(const TargetSurface& targets, const View& view, VisibleSurface& surface);
+void replace_samples(const TargetSurface& targets, const View& view, Samples& samples);
 
 }  // namespace sonarsim

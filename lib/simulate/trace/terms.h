@@ -12,10 +12,13 @@ struct Terms {
 
     bool direct = true;        ///< echoes of the visible surface
     bool multipath = true;     ///< echoes over a second surface
+    bool water = true;         ///< echoes of the water: its volume and what KindOfSample says
     std::size_t random = all;  ///< number of random terms, the first of EchoModelInfo::random_terms
 };
 
 inline constexpr Terms direct_echoes_alone{.multipath = false, .random = 0};
+/// The terms of a reference.
+inline constexpr Terms surface_alone{.multipath = false, .water = false, .random = 0};
 inline constexpr Terms multipath_alone{.direct = false, .random = 0};
 inline constexpr Terms without_random_terms{.random = 0};
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "simulate/trace/arrivals.h"
 
@@ -76,22 +77,18 @@ Sample met_by(const RayBundle& bundle, const Intersection& hit, float range_m) {
             .area_m2 = bundle.solid_angle * range_m * range_m / -along,
             .material = hit.material,
             .instance = hit.instance,
-            .strength = bundle.strength};
+            .strength = bundle.strength,
+            .kind = SampleKind::behind_wall};
 }
 
 }  // namespace
 
-std::vector<Sample> surface_behind_walls(std::span<const float> transmissions,
-                                         const TraceContext& context,
-                                         std::initializer_list<std::span<const Sample>> surfaces) {
-    std::vector<Sample> behind;
-    if (transmissions.empty()) return behind;
+void add_behind_walls(std::span<const float> transmissions, const TraceContext& context,
+                      Samples& samples) {
+    if (transmissions.empty()) return;
     std::vector<RayBundle> bundles;
-    for (const std::span<const Sample> surface : surfaces) {
-        for (const Sample& sample : surface) {
-            if (transmissions[sample.material] >= min_left)
-                add_bundles(sample, context.view, bundles);
-        }
+    for (const Sample& sample : samples.items) {
+        if (transmissions[sample.material] >= min_left) add_bundles(sample, context.view, bundles);
     }
     const auto reach = static_cast<float>(context.view.range_max_m);
     std::vector<Ray> rays;
@@ -111,7 +108,8 @@ std::vector<Sample> surface_behind_walls(std::span<const float> transmissions,
             const float range = bundle.range_m + hit.distance_m;
             if (!(range < reach)) continue;
             const float cosine = -hit.normal.dot(bundle.direction);
-            if (walls > 0 && cosine >= min_facing) behind.push_back(met_by(bundle, hit, range));
+            if (walls > 0 && cosine >= min_facing)
+                samples.items.push_back(met_by(bundle, hit, range));
             bundle.strength *= transmissions[hit.material];
             if (!(bundle.strength >= min_left)) continue;
             bundle.range_m =
@@ -120,7 +118,6 @@ std::vector<Sample> surface_behind_walls(std::span<const float> transmissions,
         }
         bundles.resize(kept);
     }
-    return behind;
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,5 @@
 #include "simulate/trace/traced_ping.h"
 
-#include <utility>
-
 #include "core/clock.h"
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/through_walls.h"
@@ -18,35 +16,24 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.map_strengths = settings.map_strengths;
     Stopwatch watch;
 
-    // 1. The visible surface.
-    VisibleSurface surface =
-        visible_surface(settings.view, settings.guard_beams, engine, T_world_sensor);
+    // 1. The visible surface, and what else returns the sound.
+    const View& view = settings.view;
+    Samples& samples = traced.samples;
+    samples = visible_surface(view, engine, T_world_sensor);
     if (settings.targets) {
-        replace_samples(target_surface(*settings.targets, settings.view, settings.guard_beams,
-                                       scene, engine, T_world_sensor),
-                        settings.view, surface);
+        replace_samples(target_surface(*settings.targets, view, scene, engine, T_world_sensor),
+                        view, samples);
     }
-    traced.samples = std::move(surface.samples);
-    traced.outside_sector = std::move(surface.outside_sector);
-    traced.behind_walls = surface_behind_walls(
-        settings.wall_transmissions, {settings.view, scene, engine, traced.T_world_sensor},
-        {traced.samples.items, traced.outside_sector});
-    for (const std::span<const Sample> of : traced.surfaces())
-        traced.counts.samples += of.size();
-    traced.counts.dropped_samples = traced.samples.dropped;
+    add_behind_walls(settings.wall_transmissions, {view, scene, engine, T_world_sensor}, samples);
+    traced.counts.samples += samples.items.size();
+    traced.counts.dropped_samples = samples.dropped;
     if (scene.maps) {
-        apply_maps(*scene.maps, settings.view, T_world_sensor, traced.samples,
-                   traced.outside_sector, scene.sound_profile.get(), settings.map_strengths);
-        Samples in_no_beams;
-        apply_maps(*scene.maps, settings.view, T_world_sensor, in_no_beams, traced.behind_walls,
-                   scene.sound_profile.get(), settings.map_strengths);
+        apply_maps(*scene.maps, view, T_world_sensor, samples, scene.sound_profile.get(),
+                   settings.map_strengths);
     }
-    move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
-    move_in_ping(motion, settings.view.shape, traced.behind_walls);
-    if (settings.sees_water_surface) {
-        traced.water_surface = visible_water_surface(settings.view, settings.guard_beams, scene,
-                                                     engine, T_world_sensor, motion);
-    }
+    move_in_ping(motion, view, samples);
+    if (settings.sees_water_surface)
+        add_water_surface(view, scene, engine, T_world_sensor, motion, samples);
     traced.seconds.trace = watch.lap();
 
     // 2. Multipath, Eq. 1-3.

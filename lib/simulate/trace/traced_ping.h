@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
 #include <memory>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "core/pose.h"
@@ -23,28 +20,23 @@ namespace sonarsim {
 /// The settings of the trace of a ping.
 struct TraceSettings {
     View view;
-    GuardBeams guard_beams;
     Multipath multipath;
     /// Objects that the trace samples itself where an engine's samples cannot; null: none.
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
     bool sees_water_surface = false;             ///< if the surface scatters
     MapStrengths map_strengths = MapStrengths::in_samples;
-    std::vector<float> wall_transmissions;       ///< see surface_behind_walls(); empty: none
+    std::vector<float> wall_transmissions;  ///< see add_behind_walls(); empty: none
 };
 
-/// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
-/// be formed from it.
+/// The samples that a sonar insonified. It holds no noise: any number of images may be formed from
+/// it.
 struct TracedPing {
     Pose T_world_sensor;  ///< at transmission
     PingMotion motion;
     MapStrengths map_strengths = MapStrengths::in_samples;
-    Samples samples;                     ///< the visible surface
-    std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
-    std::vector<Sample> behind_walls;    ///< surface that sound reaches through thin walls
-    SeenParticles particles;
-    std::vector<Sample> water_surface;  ///< if it scatters
-    std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
+    Samples samples;
+    std::vector<BouncePath> bounces;  ///< multipath paths from samples in beams
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
@@ -52,9 +44,12 @@ struct TracedPing {
     PingCounts counts;
     PingSeconds seconds;
 
-    /// All surface with direct echoes, but for the water's.
-    std::array<std::span<const Sample>, 3> surfaces() const {
-        return {samples.items, outside_sector, behind_walls};
+    int groups() const { return 1 + static_cast<int>(later_groups.size()); }
+    const TracedPing& group(int number) const {
+        return number == 0 ? *this : later_groups[static_cast<std::size_t>(number) - 1];
+    }
+    bool transmits(int number, int beam) const {
+        return group_of_beam.empty() || group_of_beam[static_cast<std::size_t>(beam)] == number;
     }
 };
 

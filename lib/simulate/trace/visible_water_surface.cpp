@@ -39,15 +39,14 @@ Eigen::Vector3f direction(double azimuth, double elevation) {
 
 class SurfaceCutter {
   public:
-    SurfaceCutter(const WaterMirror& surface, const View& view, const GuardBeams& guard_beams,
-                  std::uint32_t material)
+    SurfaceCutter(const WaterMirror& surface, const View& view, std::uint32_t material)
         : surface_(surface),
           all_around_(view.shape == ViewShape::port_starboard),
-          field_(view, guard_beams),
+          field_(view),
           reach_m_(static_cast<float>(view.range_max_m)),
           depth_m_(max_bins * static_cast<float>(view.bin_m())),
           material_(material) {
-        const View wide = widened_view(view, guard_beams);
+        const View wide = widened_view(view);
         const double azimuth = all_around_ ? 2.0 * pi : wide.azimuth_rad;
         const int columns = cells_over(azimuth);
         const int rows = cells_over(wide.elevation_rad);
@@ -113,7 +112,8 @@ class SurfaceCutter {
                            .height_m = surface_.height_m,
                            .area_m2 = 4.0F * edge_u.cross(edge_v).norm(),
                            .material = material_,
-                           .instance = no_instance});
+                           .instance = no_instance,
+                           .kind = SampleKind::water_surface});
     }
 
     const WaterMirror& surface_;
@@ -125,28 +125,25 @@ class SurfaceCutter {
 
 }  // namespace
 
-std::vector<Sample> visible_water_surface(const View& view, const GuardBeams& guard_beams,
-                                          const Scene& scene, const VisibilityEngine& engine,
-                                          const Pose& T_world_sensor, const PingMotion& motion) {
+void add_water_surface(const View& view, const Scene& scene, const VisibilityEngine& engine,
+                       const Pose& T_world_sensor, const PingMotion& motion, Samples& samples) {
     const std::optional<WaterMirror> surface = mirror_of(scene.water_surface, T_world_sensor);
-    if (!surface || !scene.water_surface->wind_m_s) return {};
+    if (!surface || !scene.water_surface->wind_m_s) return;
     const auto material = static_cast<std::uint32_t>(scene.materials.size());
-    std::vector<Sample> samples = SurfaceCutter(*surface, view, guard_beams, material).samples;
+    const std::vector<Sample> cells = SurfaceCutter(*surface, view, material).samples;
     std::vector<Ray> rays;
-    rays.reserve(samples.size());
-    for (const Sample& sample : samples)
-        rays.push_back({Eigen::Vector3f::Zero(), sample.position.normalized()});
+    rays.reserve(cells.size());
+    for (const Sample& cell : cells)
+        rays.push_back({Eigen::Vector3f::Zero(), cell.position.normalized()});
     std::vector<Intersection> hits(rays.size());
     engine.intersect(T_world_sensor, rays, hits);
-    std::vector<Sample> seen;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-        if (hits[k].distance_m < samples[k].position.norm()) continue;
-        seen.push_back(samples[k]);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (hits[k].distance_m < cells[k].position.norm()) continue;
+        samples.items.push_back(cells[k]);
         if (motion.is_still()) continue;
-        Eigen::Vector3f& place = seen.back().position;
+        Eigen::Vector3f& place = samples.items.back().position;
         place = measured_place(motion, view.shape, place.cast<double>()).cast<float>();
     }
-    return seen;
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/pose.h"
 #include "input/scene/scene.h"
 #include "simulate/trace/ping_motion.h"
@@ -10,12 +8,11 @@
 
 namespace sonarsim {
 
-/// The water's surface that scatters, as a sonar below it sees it: in its view, and for a side-scan
-/// sonar all around the track, since its beam patterns reach upwards as well. The material of the
-/// samples is the one after those of the scene; they have no instance. One ray decides on the
-/// visibility of each.
-std::vector<Sample> visible_water_surface(const View& view, const GuardBeams& guard_beams,
-                                          const Scene& scene, const VisibilityEngine& engine,
-                                          const Pose& T_world_sensor, const PingMotion& motion);
+/// Adds the water's surface that scatters, as a sonar below it sees it: in its view, and for a
+/// side-scan sonar all around the track, since its beam patterns reach upwards as well. The
+/// material of the samples is the one after those of the scene; they have no instance. One ray
+/// decides on the visibility of each.
+void add_water_surface(const View& view, const Scene& scene, const VisibilityEngine& engine,
+                       const Pose& T_world_sensor, const PingMotion& motion, Samples& samples);
 
 }  // namespace sonarsim

@@ -14,6 +14,15 @@
 
 namespace sonarsim {
 
+/// The kinds of samples; simulate/trace/sample_kinds.h has their properties.
+enum class SampleKind : std::uint8_t {
+    surface,       ///< the scene's, as an engine finds it
+    target,        ///< a piece of a small or shiny object, simulate/trace/target_surface.h
+    particle,      ///< a point in the water; its area is its cross-section
+    behind_wall,   ///< surface that sound reaches through thin walls
+    water_surface  ///< the water's, if it scatters
+};
+
 /// A patch of visible surface: a flat parallelogram that represents `area_m2` of the scene.
 /// Positions and edges are those that a sonar measures: where sound bends (Scene::sound_profile),
 /// the range by the time and the direction of arrival give an apparent place, not the true one.
@@ -29,14 +38,17 @@ struct Sample {
     /// Factor on the power that the material sends back, from a map of the scene
     /// (simulate/trace/apply_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
-    /// Number of the smooth surface of its instance that a piece of a target belongs to
-    /// (simulate/trace/target_surface.h), from 1 on; 0: no piece of a target.
-    std::uint32_t region = 0;
+    /// A target: the number of the smooth surface of its instance, from 1 on. A particle: its index
+    /// into Particles::all.
+    std::uint32_t number = 0;
+    SampleKind kind = SampleKind::surface;
 };
 
-/// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam
-/// by at most a tenth of a beam.
+/// The samples that a sonar insonifies. A footprint extends into a neighbouring beam by at most a
+/// tenth of a beam.
 struct Samples {
+    /// The visible surface, sorted by beam, then what lies in no beam: visible surface in the guard
+    /// beams, and the other kinds of samples, one after the other.
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
     /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
@@ -46,6 +58,11 @@ struct Samples {
     std::span<const Sample> beam(int j) const {
         return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};
     }
+    std::span<const Sample> in_beams() const { return std::span(items).first(beam_end()); }
+    std::span<const Sample> in_no_beam() const { return std::span(items).subspan(beam_end()); }
+
+  private:
+    std::size_t beam_end() const { return beam_begin.empty() ? items.size() : beam_begin.back(); }
 };
 
 struct Ray {

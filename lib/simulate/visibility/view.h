@@ -12,6 +12,18 @@ enum class ViewShape {
     cone             ///< one beam around the boresight
 };
 
+/// Beams on either side of a fan's view in which surface is traced as well, since the cones of a
+/// line array's beams reach there.
+struct GuardBeams {
+    int count = 0;        ///< on either side
+    double beam_rad = 0;  ///< width of each; 0: as wide as the beams of the view
+    /// The number of neighbouring beams that are traced as one at error goals of 2 % and above: a
+    /// divisor of the number of beams and, without `beam_rad`, of `count`.
+    int joined = 1;
+
+    bool operator==(const GuardBeams&) const = default;
+};
+
 /// The volume that a sonar views, in the sensor frame: x along the boresight, azimuth = atan2(y,
 /// x), elevation = asin(z / r).
 struct View {
@@ -25,6 +37,7 @@ struct View {
     double relative_l1 = 0.0;  ///< error goal of the noise-free image
     ViewShape shape = ViewShape::fan;
     bool energies_add = false;  ///< a bin holds the sum of its echoes, not their mean
+    GuardBeams guards = {};     ///< the guard beams of the echo model; engines do not know of them
 
     bool operator==(const View&) const = default;
 
