@@ -13,8 +13,11 @@ View auto_view(double relative_l1 = 0.03) {
 }
 
 bool same(const Samples& a, const Samples& b) {
-    return a.items.size() == b.items.size() &&
-           std::memcmp(a.items.data(), b.items.data(), a.items.size() * sizeof(Sample)) == 0;
+    return std::ranges::equal(a.items, b.items, [](const Sample& x, const Sample& y) {
+        return x.position == y.position && x.normal == y.normal && x.edge_u == y.edge_u &&
+               x.edge_v == y.edge_v && x.height_m == y.height_m && x.area_m2 == y.area_m2 &&
+               x.material == y.material && x.instance == y.instance && x.strength == y.strength;
+    });
 }
 
 }  // namespace
