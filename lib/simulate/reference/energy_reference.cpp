@@ -53,6 +53,7 @@ class EnergyImage {
         traced_.samples.items = targets.pieces;
         assign_to_first_beam();
         if (scene.maps) apply_maps(*scene.maps, settings.view, T_world_sensor, traced_.samples);
+        traced_.samples.items.reserve(traced_.samples.items.size() + at_once);
     }
 
     void add(const SurfacePoint& point) {
