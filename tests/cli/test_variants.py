@@ -95,6 +95,19 @@ class Variants(Sandbox):
         self.assert_refused(self.render(), "variant_0000", "other scene, material or trajectory files")
         self.assertEqual(digest(self.out), whole)
 
+    def test_more_variants_are_added(self):
+        self.assert_renders("--out", "whole")
+        for some in (2, 4):
+            self.assert_renders("--set", f"variants={some}")
+            self.assertEqual(self.variants(), self.variants("whole")[:some])
+        for shard in ("2/5", "5/5", "1/5"):  # none, one, and one of two is new
+            result = self.assert_renders("--shard", shard, "--json")
+            self.assertEqual(len(self.variants()), 6)
+        self.assertEqual([json.loads(result.stdout)[key] for key in ("pings", "skipped", "complete")], [6, 6, True])
+        self.assertEqual(digest(self.out), digest(self.folder / "whole"))
+        self.assert_refused(self.render("--set", "variants=4"), "of another mission, number", "--overwrite")
+        self.assertEqual(digest(self.out), digest(self.folder / "whole"))
+
     def test_merge(self):
         """With more shards than variants."""
         two = ("--set", "variants=2")
@@ -178,11 +191,12 @@ class Variants(Sandbox):
         self.write("other/thesis.txt", "years of work")
         whole = digest(self.folder)
         for command in ("validate", "render"):
-            for arguments, words in ((("--set", "variants=3"), "of another mission, number"),
+            for arguments, words in ((("--set", "variants=1"), "of another mission, number"),
                                      (("--set", "variants=2", "--seed", "9"), "holds variants of another mission"),
                                      (("--out", "other", "--overwrite"), "not variants of a sonarsim mission")):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), words)
-        self.succeeds("validate", "mission.yaml", "--set", "variants=3", "--overwrite")
+        self.succeeds("validate", "mission.yaml", "--set", "variants=3")
+        self.succeeds("validate", "mission.yaml", "--set", "variants=1", "--overwrite")
         self.assertEqual(digest(self.folder), whole)
 
     def scatter(self, *lines):

@@ -80,7 +80,6 @@ class VariantMaker {
                  {source_.file.string()});
         Variant variant;
         variant.index = index;
-        variant.of = mission_.variants;
         const auto set = [&](const VaryConfig& rule, const std::string& value) {
             set_text(root, rule.key, value, rule.place);
             variant.drawn.emplace_back(rule.key, value);

@@ -45,7 +45,6 @@ using DrawnValues = std::vector<std::pair<std::string, std::string>>;
 /// The variant of a mission.
 struct Variant {
     int index = -1;  ///< -1: none
-    int of = 0;      ///< number of variants
     DrawnValues drawn;
     std::vector<std::string> classes;  ///< classes of all choices of `vary`
     /// Likewise the instances, each with the class that its file gives it.

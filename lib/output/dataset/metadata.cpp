@@ -160,7 +160,6 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"poses", assembly.trajectory.size()}};
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
-                           {"of", mission.variant.of},
                            {"drawn", describe_drawn(mission.variant.drawn)}};
     }
     json["scene"] = describe_scene_use(assembly.scene);

@@ -36,6 +36,17 @@ constexpr const char* variants_format = "sonarsim variants";
         "holds variants of another mission, number, seed or version of sonarsim" + which);
 }
 
+/// True if `found` has the first of the variants of `json`, or all of them, and is equal to it
+/// else.
+bool begins(const Json& found, const Json& json) {
+    const Json& first = found.at("variants");
+    const Json& all = json.at("variants");
+    Json rest = found;
+    rest["variants"] = all;
+    return rest == json && first.size() <= all.size() &&
+           std::equal(first.begin(), first.end(), all.begin());
+}
+
 /// Removes the variants that the variants.json of the folder names. It goes last: the folder is
 /// recognised by it.
 void remove_variants(const fs::path& folder, const Mission& mission) {
@@ -91,11 +102,13 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& 
 }  // namespace
 
 Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
+    Mission one = mission;  // a variant does not depend on their number
+    one.variants = 1;
     Json json = {{"format", variants_format},
                  {"format_version", dataset_format_version},
                  {"program_version", build_info().version},
                  {"mission", mission.name},
-                 {"mission_hash", mission_hash(mission, sonar_keys())},
+                 {"mission_hash", mission_hash(one, sonar_keys())},
                  {"seed", mission.seed}};
     json["variants"] = Json::array();
     for (const Mission& variant : variants) {
@@ -148,7 +161,7 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
         throw InputError({folder.string()},
                          "holds files that are not variants of a sonarsim mission; choose another "
                          "output.folder, or remove it");
-    if (found && *found != json && !overwrite) {
+    if (found && !begins(*found, json) && !overwrite) {
         std::string difference;
         if (!variants.empty())
             difference =
@@ -164,8 +177,9 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
 }
 
 void claim_variants(const fs::path& folder, const Json& json) {
-    if (!create_once(folder / variants_name, json_text(json)))
-        inspect_variants(folder, json, {}, false);
+    if (create_once(folder / variants_name, json_text(json))) return;
+    inspect_variants(folder, json, {}, false);
+    if (read_variants(folder) != json) write_file_durably(folder / variants_name, json_text(json));
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
@@ -227,7 +241,7 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     }
     if (options.files) {
         // A shard without a variant makes its folder, too: merge takes those of all shards.
-        if (!fs::exists(folder / variants_name)) enter();
+        if (!lock && read_variants(folder) != json) enter();
         lock.reset();
         tidy(folder, Json::object());  // runs were killed
     }

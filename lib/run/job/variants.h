@@ -32,11 +32,12 @@ void require_same_variants(const std::filesystem::path& folder, const nlohmann::
                            const std::filesystem::path& first);
 
 /// InputError when the output folder holds other files, a link or, unless with `overwrite`, other
-/// variants than those of `json`.
+/// variants than those of `json`. It may hold fewer.
 void inspect_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                       std::span<const Mission> variants, bool overwrite);
 
-/// Makes variants.json: of several runs one makes it. InputError when another one is there.
+/// Makes variants.json, or replaces one with fewer variants: of several runs one makes it.
+/// InputError when another one is there. The caller holds a lock on the folder.
 void claim_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
 
 /// True if the folder holds a dataset that is complete.
