@@ -18,6 +18,7 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
 
 // Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.
 
+void add_new(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);

@@ -95,6 +95,7 @@ int run(int argc, char** argv) {
     app.failure_message(usage_message);
     int exit_code = exit_done;
     // In the order of the groups of --help.
+    add_new(app, exit_code);
     add_render(app, exit_code);
     add_merge(app, exit_code);
     add_preview(app, exit_code);

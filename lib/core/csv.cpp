@@ -140,4 +140,12 @@ CsvTable read_csv(const std::filesystem::path& path, std::size_t limit_bytes) {
     return parse_csv(read_file(path, limit_bytes), path.string());
 }
 
+std::string csv_field(const std::string& field) {
+    if (field.find_first_of(",\"# ") == std::string::npos) return field;
+    std::string out = "\"";
+    for (const char c : field)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
 }  // namespace sonarsim

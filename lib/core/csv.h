@@ -35,4 +35,7 @@ CsvTable parse_csv(std::string_view text, const std::string& file_name);
 /// parse_csv of a file of at most `limit_bytes`.
 CsvTable read_csv(const std::filesystem::path& path, std::size_t limit_bytes);
 
+/// A field as text of a CSV, in quotes if it needs them.
+std::string csv_field(const std::string& field);
+
 }  // namespace sonarsim

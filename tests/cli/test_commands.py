@@ -31,7 +31,7 @@ class Texts(Sandbox):
     maxDiff = None
 
     def test_commands(self):
-        self.assertEqual(GROUPS, {"Make": ["render", "merge", "import-holoocean", "import-poses"],
+        self.assertEqual(GROUPS, {"Make": ["new", "render", "merge", "import-holoocean", "import-poses"],
                                   "Look": ["preview", "inspect", "gallery"],
                                   "Check": ["validate", "verify", "status", "report", "compare"],
                                   "Use": ["export", "calibrate"], "Learn": ["preset", "keys"]})
@@ -54,12 +54,20 @@ class Texts(Sandbox):
         self.assertRegex(lines_of("--version"),
                          r"\Asonarsim \d+\.\d+\.\d+\nbuilt by \w+ [\d.]+ with .*; arithmetic \S+; ")
 
+    def test_texts_for_a_terminal(self):
+        self.assertLessEqual(max(map(len, lines_of("preset").splitlines())), 80)
+        self.assertIn("gemini_720is", lines_of("preset"))
+        names = re.findall(r"^\| `(\w+)`", lines_of("keys", "noise"), re.MULTILINE)
+        self.assertIn("add_sigma", names)
+        self.assertNotIn("waypoints", names)
+        self.assert_refused(self.run_sonarsim("keys", "nose"), "no key has 'nose' in its path")
+
     def test_the_pages_show_the_tables_of_the_program(self):
         for page, table, command in (("mission.md", "keys", "keys"), ("warnings.md", "warnings", "warnings"),
-                                     ("calibrated.md", "presets", "preset")):
+                                     ("calibrated.md", "presets", "preset --markdown")):
             marks = rf"<!-- begin {table} -->\n\n(.*)\n<!-- end {table} -->"
             found = re.search(marks, (ROOT / "docs" / page).read_text(), re.DOTALL)
-            self.assertEqual(found.group(1), lines_of(command), "run ./scripts/write_keys.sh")
+            self.assertEqual(found.group(1), lines_of(*command.split()), "run ./scripts/write_keys.sh")
 
 
 class Python(Sandbox):

@@ -41,7 +41,7 @@ INSTEAD = {
     "./scripts/render.sh configs/detection.yaml":
         f"./scripts/render.sh configs/detection.yaml --set variants=1 --set trajectory.rate_hz=0.5 {TINY}",
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
-        f"build/sonarsim validate hull.yaml {FEW} && build/sonarsim render hull.yaml {FEW}",
+        f"build/sonarsim validate hull.yaml {TINY} && build/sonarsim render hull.yaml {TINY}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
         f"sonarsim render share/sonarsim/configs/tank_imaging.yaml {FEW} --out out/installed",
     "build/sonarsim validate anchors.yaml": f"build/sonarsim validate anchors.yaml --set variants=1 {FEW}",
@@ -92,9 +92,7 @@ def fill(folder, clone):
         (folder / "bin/python3").symlink_to(PYTHON)
     (folder / "share").mkdir()
     (folder / "share/sonarsim").symlink_to(clone)
-    readme = (clone / "README.md").read_text()
-    (folder / "hull.yaml").write_text(re.search(r"```yaml\n(.*?)```", readme, re.DOTALL).group(1))
-    (folder / "materials.csv").write_text(MATERIALS + re.search(r"\n    (Hull,.*\n)", readme).group(1))
+    (folder / "materials.csv").write_text(MATERIALS)
     (folder / "mission.yaml").write_text(MISSION.replace("  folder: out\n", ""))
     (folder / "box.gltf").write_text(box_gltf())
     (folder / "path.csv").write_text(path_csv(16))
@@ -141,17 +139,6 @@ class DocumentedCommands(Clone):
         self.assertGreater(len(there), 20)
         self.assertEqual((NOT_RUN.keys() | INSTEAD.keys()) - there, set())
         self.assertEqual(NOT_RUN.keys() & INSTEAD.keys(), set())
-
-    def test_labels_of_the_hull(self):
-        """What README adds for masks and boxes names the hull as an object."""
-        folder = self.folder / "labels"
-        folder.mkdir()
-        fill(folder, self.clone)
-        added = re.search(r"masks and boxes[^`]*`([^`]*)` and `([^`]*)`", (self.clone / "README.md").read_text()).groups()
-        (folder / "hull.yaml").write_text("\n".join(((folder / "hull.yaml").read_text(), *added)))
-        self.assertEqual(run(f"sonarsim render hull.yaml --shard 1/20 -q {TINY}", folder), "")
-        facts = json.loads(next(folder.glob("out/hull/fls/objects/*.json")).read_text())
-        self.assertEqual([one["class"] for one in facts["objects"]], ["walls"])
 
     def test_packages_are_installed_with_sudo(self):
         """Stand-ins for a user who is not root and lacks every package."""

@@ -1,10 +1,10 @@
-"""sonarsim inspect, preset and preview, what a user looks at before a render; and the report of speed against error."""
+"""sonarsim new, inspect, preset and preview, what a user looks at before a render; and the report of speed against error."""
 import json
 import math
 import struct
 import unittest
 
-from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf
+from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, box_mesh, gltf
 
 ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
        "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
@@ -49,6 +49,67 @@ class Inspect(Sandbox):
         self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
         self.assert_refused(self.run_sonarsim("inspect", "beds.csv"),
                             "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
+
+
+def pyramid(length):
+    """Corners and faces of a pyramid that stands on a square with z up."""
+    points = [(x * length, y * length, 0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))] + [(0, 0, 2 * length)]
+    return points, [(0, 2, 1), (0, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+
+
+class New(Sandbox):
+    def assert_a_mission(self, name, *fragments):
+        """`new` writes a mission that has no fault and whose images have the object; its text."""
+        printed = self.succeeds("new", name).stdout
+        mission = self.folder / name.split(".")[0]
+        text = mission.with_suffix(".yaml").read_text()
+        for fragment in fragments:
+            self.assertIn(fragment, printed + text + self.folder.joinpath(f"{mission.name}_materials.csv").read_text())
+        self.assertIn(f"next        sonarsim preview {mission.name}.yaml\n", printed)
+        small = ("--set", "trajectory.count=4", "--set", "sensors.fls.azimuth_bins=128", "--set", "sensors.fls.range_bins=256")
+        found = json.loads(self.succeeds("validate", f"{mission.name}.yaml", "--json", *small).stdout)
+        self.assertEqual((found["pings"], found["warnings"]), (4, []))
+        self.succeeds("render", f"{mission.name}.yaml", "--out", "out", "--overwrite", *small)
+        for ping in range(4):
+            (seen,) = self.objects_of(ping)
+            self.assertEqual((seen["name"], seen["class"]), (mission.name, mission.name))
+            self.assertGreater(seen["area_bins"], 50)
+        return text
+
+    def test_an_obj_in_millimetres_with_z_up(self):
+        points, faces = pyramid(600)
+        self.write("cone.obj", "usemtl Hull_Wood.001\n" + "".join(f"v {x} {y} {z}\n" for x, y, z in points)
+                   + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+        self.assert_a_mission("cone.obj", "units: mm, up: z", "# guess: the file is 1200 m long: millimetres",
+                              "material Hull_Wood: wood\n", "# guess: the numbers of wood\nHull_Wood,720,4000,",
+                              "\nsand,1900,1650,")
+        whole = {path: path.read_bytes() for path in self.folder.glob("cone*")}
+        self.assert_refused(self.run_sonarsim("new", "cone.obj"), "cone.yaml: is there already", "--out")
+        (self.folder / "cone.yaml").unlink()
+        self.assert_refused(self.run_sonarsim("new", "cone.obj"), "cone_materials.csv: is there already")
+        self.assertFalse((self.folder / "cone.yaml").exists())
+        self.succeeds("new", "cone.obj", "--out", "more/cone.yaml", "--preset", "gemini_720is", "--bed", "rippled_sand")
+        self.succeeds("validate", "more/cone.yaml")
+        self.assertEqual((self.folder / "cone_materials.csv").read_bytes(), whole[self.folder / "cone_materials.csv"])
+
+    def test_a_glb_off_its_origin(self):
+        scene = gltf([{"name": "walls", "mesh": 0, "translation": [30, 5, -4]}], [box_mesh((3, 1, 2))], ("Steel",)).encode()
+        scene += b" " * (-len(scene) % 4)
+        self.write("ark.glb", struct.pack("<4s4I", b"glTF", 2, 20 + len(scene), len(scene), 0x4E4F534A) + scene)
+        text = self.assert_a_mission("ark.glb", "position_m: [-30.000, -4.000, 0]", "Steel,7850,5890,")
+        self.assertNotIn("units", text)
+
+    def test_what_is_refused(self):
+        self.write("note.obj", "Dear reader")
+        self.write("note.txt", "Dear reader")
+        for arguments, words in ((["note.obj"], "note.obj"), (["note.txt"], "note.txt"), (["none.glb"], "none.glb"),
+                                 (["materials.csv"], "materials.csv"), (["mission.yaml"], "mission.yaml"),
+                                 (["box.gltf", "--preset", "sidescan_400khz"], "is no imaging sonar"),
+                                 (["box.gltf", "--preset", "gemini_720"], "did you mean 'gemini_720is'"),
+                                 (["box.gltf", "--bed", "snow"], "snow: is not a file")):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(self.run_sonarsim("new", *arguments), words)
+                self.assertEqual([*self.folder.glob("*_materials.csv")], [])
 
 
 class Preset(Sandbox):

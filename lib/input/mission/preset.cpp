@@ -50,18 +50,6 @@ std::vector<std::filesystem::path> shipped_folders() {
     return out;
 }
 
-/// The path of a preset that comes with the program, such as "sensors/NAME.yaml". Empty if there is
-/// none.
-std::filesystem::path shipped_preset(const std::filesystem::path& name) {
-    std::error_code unknown;
-    if (name.is_absolute()) return {};
-    for (const std::filesystem::path& folder : shipped_folders()) {
-        std::filesystem::path path = folder / name;
-        if (std::filesystem::is_regular_file(path, unknown)) return path;
-    }
-    return {};
-}
-
 /// Reads the file that the value of a key `preset` names.
 YamlNode read_preset_file(const YamlNode& name, const std::filesystem::path& base_folder,
                           const std::string& kind) {
@@ -142,10 +130,20 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
 
 }  // namespace
 
+std::filesystem::path shipped_file(const std::filesystem::path& name) {
+    std::error_code unknown;
+    if (name.is_absolute()) return {};
+    for (const std::filesystem::path& folder : shipped_folders()) {
+        std::filesystem::path path = folder / name;
+        if (std::filesystem::is_regular_file(path, unknown)) return path;
+    }
+    return {};
+}
+
 std::filesystem::path preset_file(const std::filesystem::path& name,
                                   const std::filesystem::path& base_folder) {
     auto path = std::filesystem::absolute(base_folder / name).lexically_normal();
-    return std::filesystem::is_regular_file(path) ? path : shipped_preset(name);
+    return std::filesystem::is_regular_file(path) ? path : shipped_file(name);
 }
 
 std::vector<std::string> shipped_presets(const std::string& kind) {

@@ -20,6 +20,10 @@ std::vector<std::string> shipped_presets(const std::string& kind = sensor_preset
 /// a path.
 std::string shipped_hint(std::string name, const std::string& kind = sensor_presets);
 
+/// The file of a path from configs/ that came with the program, such as "sensors/NAME.yaml". Empty
+/// if there is none.
+std::filesystem::path shipped_file(const std::filesystem::path& name);
+
 /// The file that the path of a preset means: one below `base_folder`, else one that came with the
 /// program. Empty if there is none.
 std::filesystem::path preset_file(const std::filesystem::path& name,

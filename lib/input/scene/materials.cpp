@@ -152,15 +152,6 @@ MaterialTable to_materials(const CsvTable& csv) {
     return table;
 }
 
-/// Quotes a name for CSV if it needs quotes.
-std::string field_of(const std::string& name) {
-    if (name.find_first_of(",\"# ") == std::string::npos) return name;
-    std::string out = "\"";
-    for (const char c : name)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 }  // namespace
 
 MaterialTable read_materials(const std::filesystem::path& path) {
@@ -213,7 +204,7 @@ std::string materials_csv(const Scene& scene, const MaterialTable& known) {
         const Material* const row = find_material(known.materials, material.name);
         const std::string name = row ? row->name : without_copy_number(material.name);
         if (!written.insert(name).second) continue;
-        csv += field_of(name);
+        csv += csv_field(name);
         csv += row ? "," + number_text(row->density_kg_m3) + "," + number_text(row->sound_speed_m_s)
                    : ",,";
         csv += "\n";

@@ -1,0 +1,201 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands.h"
+#include "core/error.h"
+#include "guessed_materials.h"
+#include "input/mission/parse.h"
+#include "input/mission/preset.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/gltf/surface_of.h"
+#include "input/scene/meshes/read_mesh.h"
+#include "input/scene/placing/standing.h"
+#include "input/scene/unit_question.h"
+#include "logging.h"
+#include "run/job/folder.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewArguments {
+    fs::path mesh;
+    std::string preset;  ///< "": by the size of the mesh
+    std::string bed = "sand";
+    fs::path out;  ///< "": NAME.yaml in the current folder
+    LogOptions log;
+};
+
+/// A mesh, read as it seems to be meant.
+struct ReadMesh {
+    Scene scene;
+    MeshConfig config;
+    std::string keys;  ///< ", units: mm, up: z" for the mission
+    std::vector<std::string> guesses;
+};
+
+/// Reads a mesh in the unit and with the axis that `inspect` asks about. InputError for a file that
+/// is no mesh or has no surface.
+ReadMesh read_as_meant(const fs::path& path) {
+    ReadMesh mesh;
+    SceneFiles models;
+    const PlacedFile as_gltf = file_of(path, mesh.config, {});
+    mesh.scene = load_scene_geometry(as_gltf, models);
+    if (mesh.scene.triangles.empty()) throw InputError({path.string()}, "has no triangles");
+    const double length_m = (mesh.scene.bounds_max - mesh.scene.bounds_min).maxCoeff();
+    const std::string unit = unit_question(length_m, 1.0, usual_range_m, long_object);
+    const std::string up = up_question(as_gltf, surface_of(as_gltf, models));
+    if (!unit.empty()) mesh.config.units = LengthUnit::mm;
+    if (!up.empty()) mesh.config.up = UpAxis::z;
+    if (!unit.empty()) mesh.guesses.push_back("the file is " + unit);
+    if (!up.empty()) mesh.guesses.push_back(up);
+    if (!unit.empty() || is_mesh_file(path))
+        mesh.keys = unit.empty() ? ", units: m" : ", units: mm";
+    if (is_mesh_file(path)) mesh.keys += up.empty() ? ", up: y" : ", up: z";
+    mesh.config.up_given = true;
+    if (!mesh.guesses.empty())
+        mesh.scene = load_scene_geometry(file_of(path, mesh.config, {}), models);
+    return mesh;
+}
+
+/// A preset as a mission in `folder` names it. InputError if there is none.
+std::string preset_in(const fs::path& folder, const std::string& kind, const std::string& name) {
+    const std::string shipped = kind + "/" + name + ".yaml";
+    if (!shipped_file(shipped).empty()) return shipped;
+    if (fs::is_regular_file(name)) return fs::proximate(fs::absolute(name), folder).string();
+    throw InputError({name}, "is not a file, and no preset of this name came with the program" +
+                                 shipped_hint(name, kind));
+}
+
+/// Lengths of the mission by the diagonal of the mesh, m.
+struct Distances {
+    double near, far, reach, cell;
+};
+
+Distances distances_of(double diagonal, double longest, double ripple) {
+    Distances out{0.6 * diagonal + 1.0, 1.2 * diagonal + 2.0, 0.0, 0.0};
+    out.reach = std::min(longest, out.far + 0.6 * diagonal);
+    out.far = std::clamp(out.far, out.near, std::max(out.near, out.reach));
+    out.cell = std::min(std::clamp(out.reach / 100.0, 0.03, 0.5), ripple / 4.0);
+    return out;
+}
+
+std::string mission_text(const NewArguments& arguments, const ReadMesh& mesh, const fs::path& csv,
+                         const std::string& default_material, const Distances& at) {
+    const fs::path folder = fs::absolute(csv).parent_path();
+    const std::string name = quoted_text(arguments.mesh.stem().string());
+    const Eigen::Vector3d middle = 0.5 * (mesh.scene.bounds_min + mesh.scene.bounds_max);
+    const double diagonal = (mesh.scene.bounds_max - mesh.scene.bounds_min).norm();
+    const std::string preset = !arguments.preset.empty() ? arguments.preset
+                               : diagonal < 15.0         ? "oculus_m1200d_1200khz"
+                                                         : "oculus_m750d_750khz";
+    std::string text = "# Made by `sonarsim new`.\n";
+    for (const std::string& guess : mesh.guesses)
+        text += "# guess: " + guess + "\n";
+    text += fmt::format("scene:\n  materials: {}  # has guesses\n",
+                        quoted_text(csv.filename().string()));
+    if (!default_material.empty())
+        text += fmt::format("  material_default: {}  # guess\n", default_material);
+    text += fmt::format("  seabed: {{preset: {}, cell_m: {:.2g}, class: bottom}}\n",
+                        quoted_text(preset_in(folder, seabed_presets, arguments.bed)), at.cell);
+    text += fmt::format(
+        "  objects:\n    - {{name: {}, class: {}, file: {}{},\n"
+        "       place: on_bottom, position_m: [{:.3f}, {:.3f}, 0]}}  # rpy_deg turns it\n",
+        name, name, quoted_text(fs::proximate(fs::absolute(arguments.mesh), folder).string()),
+        mesh.keys, 0.0 - middle.x(), 0.0 - middle.y());
+    text += fmt::format(
+        "trajectory:  # poses around it\n  look_at: {}\n  count: 20\n"
+        "  range_m: [{:.3g}, {:.3g}]  # to its middle\n  height_m: [{:.2g}, {:.2g}]\n",
+        name, at.near, at.far, 0.25 * at.near, 0.5 * at.near);
+    text += fmt::format("sensors:\n  fls:\n    preset: {}\n",
+                        quoted_text(preset_in(folder, sensor_presets, preset)));
+    if (at.reach > 0.0) text += fmt::format("    range_max_m: {:.3g}\n", at.reach);
+    return text + "output: {labels: [objects]}\nlabels: {background: [bottom]}\n";
+}
+
+/// The materials that a made bed names.
+std::vector<std::string> materials_of(const SeabedConfig& bed) {
+    std::vector<std::string> names;
+    for (const BedSedimentConfig& sediment : bed.sediments)
+        names.push_back(sediment.material);
+    if (!bed.material.empty()) names.push_back(bed.material);
+    if (bed.rocks && !bed.rocks->material.empty()) names.push_back(bed.rocks->material);
+    return names;
+}
+
+/// Writes a file that is not there yet.
+void write_new(const fs::path& file, const std::string& text) {
+    if (!create_once(fs::absolute(file), text))
+        throw InputError({file.string()}, "is there already; give another name with --out");
+}
+
+int make_mission(const NewArguments& arguments) {
+    start_logging(arguments.log);
+    const fs::path out =
+        arguments.out.empty() ? fs::path(arguments.mesh.stem().string() + ".yaml") : arguments.out;
+    const fs::path folder = fs::absolute(out).parent_path();
+    const fs::path csv = folder / (out.stem().string() + "_materials.csv");
+    for (const fs::path& file : {out, csv.lexically_proximate(fs::current_path())}) {
+        if (fs::exists(file))
+            throw InputError({file.string()}, "is there already; give another name with --out");
+    }
+    const ReadMesh mesh = read_as_meant(arguments.mesh);
+    const double diagonal = (mesh.scene.bounds_max - mesh.scene.bounds_min).norm();
+    const Mission first =
+        parse_mission(mission_text(arguments, mesh, csv, "", {1.0, 2.0, 0.0, 0.01}), out.string(),
+                      folder, {}, sonar_keys());
+    if (first.sensors.front().kind != SonarKind::imaging)
+        throw InputError({arguments.preset}, "is no imaging sonar, which a new mission needs");
+    const SeabedConfig& bed = *first.scene.seabed;
+    const Distances at = distances_of(diagonal, first.sensors.front().range_max_m,
+                                      bed.ripples ? bed.ripples->length_m : 2.0);
+    const GuessedMaterials materials = guess_materials(mesh.scene, materials_of(bed));
+    fs::create_directories(folder);
+    write_new(csv, materials.csv);
+    write_new(out, mission_text(arguments, mesh, csv, materials.default_material, at));
+    if (!arguments.log.prints_result()) return exit_done;
+    const std::string name = out.string();
+    fmt::print("{}", result_line("mission", name));
+    fmt::print("{}",
+               result_line("materials", csv.lexically_proximate(fs::current_path()).string()));
+    fmt::print("{}", result_line("size", fmt::format("{:.3g} m", diagonal) + " across, read as " +
+                                             reading_of(file_of(arguments.mesh, mesh.config, {}))));
+    for (const std::vector<std::string>& some : {mesh.guesses, materials.guesses}) {
+        for (const std::string& guess : some)
+            fmt::print("{}", result_line("guess", guess));
+    }
+    fmt::print("{}", result_line("next", "sonarsim preview " + name));
+    fmt::print("{}", result_line("", "sonarsim render " + name));
+    return exit_done;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, int& exit_code) {
+    CLI::App& command =
+        *app.add_subcommand("new", "Writes a mission around a mesh, with its guesses marked")
+             ->group("Make");
+    add_examples(command, {"sonarsim new hull.glb",
+                           "sonarsim new tyre.stl --preset gemini_720is --bed mud"});
+    auto arguments = std::make_shared<NewArguments>();
+    command.add_option("mesh", arguments->mesh, "A .gltf, .glb, .obj, .stl or .ply file")
+        ->required();
+    command.add_option("--preset", arguments->preset,
+                       "An imaging sonar, of configs/sensors or a file (default: an Oculus)");
+    command.add_option("--bed", arguments->bed,
+                       "The sea bed, of configs/seabeds or a file (default: sand)");
+    command
+        .add_option("--out", arguments->out,
+                    "The mission (default: NAME.yaml in the current folder)")
+        ->type_name("FILE.yaml");
+    add_log_options(command, arguments->log, LogResult::text);
+    command.callback([arguments, &exit_code] { exit_code = make_mission(*arguments); });
+}
+
+}  // namespace sonarsim
