@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "core/error.h"
+#include "core/text.h"
 #include "input/mission/reference.h"
 #include "logging.h"
 #include "run/checks/warning.h"
@@ -50,6 +52,22 @@ Json reference_json(const std::vector<SectionReference>& sections) {
     return json;
 }
 
+/// The keys whose path has a text. InputError if there is none.
+std::vector<SectionReference> with_text(std::vector<SectionReference> sections,
+                                        const std::string& text) {
+    for (SectionReference& section : sections) {
+        std::erase_if(section.keys, [&](const KeyReference& key) {
+            return (section.path + "." + key.name).find(text) == std::string::npos;
+        });
+        std::erase_if(section.checks, [&](const std::string& check) {
+            return check.find(text) == std::string::npos;
+        });
+    }
+    std::erase_if(sections, [](const SectionReference& section) { return section.keys.empty(); });
+    if (sections.empty()) throw InputError("no key has '" + printable(text) + "' in its path");
+    return sections;
+}
+
 }  // namespace
 
 /// For scripts/write_keys.sh, which puts the table into docs/warnings.md; --help does not list it.
@@ -67,11 +85,13 @@ void add_keys(CLI::App& app, int& exit_code) {
         *app.add_subcommand("keys",
                             "Prints every key of a mission with its default, range and meaning")
              ->group("Learn");
-    add_examples(command, {"sonarsim keys", "sonarsim keys --json > sonarsim.schema.json"});
+    add_examples(command, {"sonarsim keys noise", "sonarsim keys --json > sonarsim.schema.json"});
     auto json = std::make_shared<bool>(false);
+    auto text = std::make_shared<std::string>();
+    command.add_option("text", *text, "A part of the key's path, as noise (default: every key)");
     command.add_flag("--json", *json,
                      "Prints a JSON Schema, for editors that complete and check missions");
-    command.callback([json, &exit_code] {
+    command.callback([json, text, &exit_code] {
         const std::vector<SectionReference> sections = mission_reference(sonar_keys());
         if (*json) {
             Json schema = reference_schema(sections, sonar_keys());
@@ -79,7 +99,7 @@ void add_keys(CLI::App& app, int& exit_code) {
             schema["sections"] = reference_json(sections);
             fmt::print("{}\n", schema.dump(1));
         } else {
-            fmt::print("{}", reference_markdown(sections));
+            fmt::print("{}", reference_markdown(with_text(sections, *text)));
         }
         exit_code = exit_done;
     });

@@ -158,10 +158,30 @@ std::string presets_markdown(const std::vector<Json>& presets) {
     return text;
 }
 
+/// A table for a terminal of 80 columns.
+std::string presets_text(const std::vector<Json>& presets) {
+    constexpr const char* row = "{:33}{:>6}{:>9}{:>7}{:>7}{:>7}{:>8}\n";
+    const auto number = [](const Json& value) {
+        return fmt::format("{:.3g}", value.get<double>());
+    };
+    std::string text = fmt::format(fmt::runtime(row), "preset", "kHz", "range, m", "mud", "sand",
+                                   "rock", "sphere");
+    for (const Json& preset : presets) {
+        const Json& ranges = preset["noise_range_m"];
+        text += fmt::format(fmt::runtime(row), preset["preset"].get<std::string>(),
+                            fmt::format("{:.4g}", 1e-3 * preset["frequency_hz"].get<double>()),
+                            fmt::format("{:.4g}", preset["range_max_m"].get<double>()),
+                            number(ranges["mud"]), number(ranges["sand"]), number(ranges["rock"]),
+                            number(ranges["sphere"]));
+    }
+    return text + "\nmud to sphere: the range in m at which its mean echo equals the noise\n";
+}
+
 struct PresetArguments {
     std::string name;  ///< "": all that come with the program
     std::vector<std::string> settings;
     bool json = false;
+    bool markdown = false;
 };
 
 void print_presets(const PresetArguments& arguments) {
@@ -174,7 +194,7 @@ void print_presets(const PresetArguments& arguments) {
     } else if (one) {
         print_preset(presets.front());
     } else {
-        fmt::print("{}", presets_markdown(presets));
+        fmt::print("{}", arguments.markdown ? presets_markdown(presets) : presets_text(presets));
     }
 }
 
@@ -197,6 +217,7 @@ void add_preset(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     command.add_flag("--json", arguments->json, "Prints JSON instead of text");
+    command.add_flag("--markdown", arguments->markdown, "Prints the table of docs/calibrated.md");
     command.callback([arguments, &exit_code] {
         print_presets(*arguments);
         exit_code = exit_done;

@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "input/mission/variants.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "output/dataset/layout.h"
@@ -117,10 +118,27 @@ void log_dropped(const PingCounts& counts) {
         spdlog::debug("multipath: {}", sentence(multipath_counters, counts.multipath));
 }
 
+/// The first picture of a dataset, or of its first variant; "" where it has none.
+std::filesystem::path picture_of(const Mission& mission) {
+    std::filesystem::path folder = mission.output.folder;
+    if (mission.variants > 0) folder /= variant_folder(0);
+    for (const SonarConfig& sonar : mission.sensors) {
+        for (const char* name :
+             {"fan/000000.png", "waterfall_view.png", "echogram_view.png", "scan_0000.png"}) {
+            if (std::filesystem::exists(folder / sonar.name / name))
+                return (folder / sonar.name / name)
+                    .lexically_proximate(std::filesystem::current_path());
+        }
+    }
+    return {};
+}
+
 void log_outcome(const RenderSummary& summary, const Mission& mission, bool files) {
     const std::string folder = mission.output.folder.string();
     if (files && summary.complete) {
         spdlog::info("{}: complete; {}", folder, made_text(summary.pings, summary.skipped));
+        const std::string picture = picture_of(mission).string();
+        if (!picture.empty()) spdlog::info("open {}", picture);
     } else if (files && !summary.stopped) {
         spdlog::info("{}: the pings of other shards are still missing", folder);
     }

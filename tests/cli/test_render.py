@@ -36,9 +36,10 @@ class Render(Sandbox):
         self.write("box.gltf", json.dumps(mesh))
         self.edit("mission.yaml", "    noise:\n", "    multipath: {method: cluster}\n    noise:\n")
         lines = self.assert_renders().stderr.splitlines()
-        self.assertEqual(len(lines), 2, lines)
+        self.assertEqual(len(lines), 3, lines)
         self.assertIn("box: 12 triangles, 6 poses", lines[0])
         self.assertIn("complete; 6 pings rendered", lines[1])
+        self.assertTrue(lines[2].endswith("open out/fls/fan/000000.png"), lines[2])
         self.assertIn("all of its 6 pings were there already", self.assert_renders().stderr)
         far = ("--set", "sensors.fls.noise.range_lambda_m=3")
         debug = self.assert_renders("--overwrite", "--log-level", "debug", *far).stderr
