@@ -131,7 +131,7 @@ class Fits(unittest.TestCase):
                         (one, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other)]
                 self.assertAlmostEqual(np.corrcoef(logs)[0, 1], known.correlation(k2), delta=0.01)
             self.assertAlmostEqual(logs[0].std(), known.variance**0.5, delta=0.01 * logs[0].std())
-        # Of docs/calibrated.md, section 4.
+        # Of docs/calibrated.md, section 5.
         nine = LogStatistics(9.0, "max", 1.75)
         self.assertAlmostEqual(nine.variation, 0.381, delta=0.003)
         self.assertAlmostEqual(nine.skewness, -0.11, delta=0.01)
