@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# ./scripts/benchmark.sh fls|sidescan [variants]: renders configs/benchmark/NAME.yaml, or its first variants, and compares
-# the pictures with NAME.sha256: for each variant, the sum of the lines of its SHA256SUMS that name pictures and labels.
+# ./scripts/benchmark.sh fls|sidescan [variants]: renders configs/benchmark/NAME.yaml, or its first variants, and
+# compares the pictures with NAME.sha256: for each variant, the sum of the lines of its SHA256SUMS that name pictures
+# and labels.
 # ./scripts/benchmark.sh NAME --write: writes that list. SONARSIM=PROGRAM as for render.sh; OUT=FOLDER in place of out.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -13,8 +14,8 @@ settings=()
 "$root/scripts/render.sh" "$mission" --out "$out" "${settings[@]}"
 sums() {
     for folder in "$out"/variant_*; do
-        printf '%s  %s\n' "$(grep -E '/(fan|raw|objects|silhouette|waterfall)[/.]' "$folder/SHA256SUMS" | sha256sum | cut -c1-64)" \
-            "${folder##*/}"
+        sum=$(grep -E '/(fan|raw|objects|silhouette|waterfall)[/.]' "$folder/SHA256SUMS" | sha256sum)
+        echo "${sum%% *}  ${folder##*/}"
     done
 }
 if [[ ${2:-} = --write ]]; then
