@@ -66,19 +66,4 @@ TEST_SUITE("assembly") {
         const std::vector<double> scales = scales_of(mission);
         CHECK(scales[1] / scales[0] == test::approx(1.0).epsilon(0.1));
     }
-
-    TEST_CASE("auto: rays trace the views of sonars with multipath") {
-        Mission mission = small_mission("out");
-        mission.engine = EngineKind::automatic;
-        for (SonarConfig& sensor : mission.sensors)
-            sensor.multipath.method = MultipathMethod::none;
-        CHECK(engine_settings(mission, small_assembly(mission, 9)).by_rays.empty());
-        mission.sensors[0].multipath.method = MultipathMethod::exact;
-        const EngineSettings one = engine_settings(mission, small_assembly(mission, 9));
-        CHECK(one.type == EngineKind::automatic);
-        CHECK(one.by_rays.size() == 1);
-        for (SonarConfig& sensor : mission.sensors)
-            sensor.multipath.method = MultipathMethod::exact;
-        CHECK(engine_settings(mission, small_assembly(mission, 9)).type == EngineKind::rays);
-    }
 }

@@ -206,8 +206,7 @@ std::vector<HardCase> hard_geometry() {
              .scene = flipped_tank,
              .trial = plain_in_tank,
              .truth = tank_image,
-             // Rays take triangles wound unlike their neighbours for fine surface. Strips divide
-             // clipped triangles from another corner.
+             // Strips divide clipped triangles from another corner.
              .bounds = {0.01},
              .truth_of_any_model = true},
             {.name = "T-junctions, a crack",

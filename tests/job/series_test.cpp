@@ -3,8 +3,8 @@
 #include "job/small_job.h"
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
-#include "simulate/assembly/engines.h"
 #include "simulate/product/soundings.h"
+#include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
 #include "support/npy_data.h"
 
@@ -43,7 +43,7 @@ TEST_SUITE("job") {
         const Mission mission = survey_mission(out);
         const Assembly assembly = small_assembly(mission, poses);
         CHECK(run(mission).pings == 3 * 7 + 4);
-        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
+        const auto engine = make_engine(assembly.scene, engine_settings(mission));
         const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
         REQUIRE(soundings.size() == 7 * 40 * 5);
         for (std::uint32_t k = 0; k < 7; ++k) {

@@ -24,22 +24,18 @@ bool same(const Samples& a, const Samples& b) {
 
 TEST_SUITE_BEGIN("auto engine");
 
-TEST_CASE("auto takes strips, and rays for the views that need them") {
+TEST_CASE("auto takes strips; multipath starts from rays") {
     const Scene scene = test::tank();
     const View view = auto_view();
     Pose pose;
     pose.translation = {0.0, 0.0, 1.5};
-    const auto seen = [&](const std::vector<View>& by_rays) {
-        return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
-            ->visible_surface(view, pose);
-    };
     const Samples by_strips = StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
-    CHECK(same(seen({}), by_strips));
-    CHECK(same(seen({view}), by_rays));
-    View other = view;
-    other.beams = 64;
-    CHECK(same(seen({other}), by_strips));
+    for (const EngineKind type : {EngineKind::automatic, EngineKind::strips}) {
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        CHECK(same(engine->visible_surface(view, pose), by_strips));
+        CHECK(same(engine->by_rays().visible_surface(view, pose), by_rays));
+    }
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
@@ -54,37 +50,6 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     const Samples seen = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
                              ->visible_surface(view, pose);
     CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
-}
-
-TEST_CASE("auto takes rays for fans of energies over many triangles, strips for sides") {
-    const Scene few = test::floor_scene(20.0F, 0.0F, 0.3F, 8);
-    const Scene many = test::floor_scene(20.0F, 0.0F, 0.3F, 200);
-    View view = auto_view();
-    view.energies_add = true;
-    Pose pose;
-    pose.translation = {-4.0, 0.0, 2.0};
-    pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
-    const auto takes_strips = [&](const Scene& scene, const View& by) {
-        return same(make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
-                        ->visible_surface(by, pose),
-                    StripsEngine(scene, Caster(scene)).visible_surface(by, pose));
-    };
-    REQUIRE(many.triangles.size() > std::size_t{1} << 15);
-    CHECK(takes_strips(few, view));
-    CHECK_FALSE(takes_strips(many, view));
-    view.shape = ViewShape::port_starboard;
-    view.beams = 2;
-    CHECK(takes_strips(many, view));
-}
-
-TEST_CASE("engine: strips with multipath gives a warning") {
-    const auto warning = [](EngineKind type, bool multipath) {
-        return strips_warning({.type = type, .octree = {}}, multipath);
-    };
-    CHECK(warning(EngineKind::strips, true).find("use engine: auto") != std::string::npos);
-    CHECK(warning(EngineKind::strips, false).empty());
-    CHECK(warning(EngineKind::automatic, true).empty());
-    CHECK(warning(EngineKind::rays, true).empty());
 }
 
 TEST_CASE("engine: the octree and the strips refuse copies, bodies and profiles of sound speed") {

@@ -14,20 +14,11 @@ void append(std::vector<Warning>& out, std::vector<Warning> more) {
         out.push_back(std::move(warning));
 }
 
-void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warning>& out) {
-    const std::string warning =
-        strips_warning(engine_settings(mission), sonar.settings.multipath.on);
-    if (!warning.empty())
-        out.push_back(make_warning(WarningCode::engine, about_sensor(sonar.config.name), warning));
-}
-
 }  // namespace
 
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly) {
     std::vector<Warning> out = reading_warnings(assembly.scene);
     append(out, material_warnings(mission.water, assembly.scene));
-    for (const Sonar& sonar : assembly.sonars)
-        judge_engine(mission, sonar, out);
     append(out, settings_warnings(mission, assembly));
     return out;
 }

@@ -26,7 +26,6 @@ enum class WarningCode {
     saturated = 19,
     dim = 20,
     hidden_object = 21,
-    engine = 24,
     memory = 26,
     no_locks = 28,
     goal_missed = 29,

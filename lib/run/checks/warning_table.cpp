@@ -81,8 +81,6 @@ constexpr std::array table{
                 "{2:s}",
                 "an object with a name or a class that none of four pings of each sonar sees; the "
                 "tested pings look at it most directly, and the first 200 objects are tested"},
-    WarningText{WarningCode::engine, "{0:s}", "",
-                "engine: strips with multipath"},
     WarningText{
         WarningCode::memory,
         "a ping takes about {0:.2g} GB of memory, {1} at once {2:.2g} GB, and there are {3:.2g} GB",

@@ -3,6 +3,7 @@
 #include "core/in_parallel.h"
 #include "run/report/report.h"
 #include "simulate/assembly/engines.h"
+#include "simulate/sonar/engine_settings.h"
 #include "simulate/reference/image_error.h"
 
 namespace sonarsim {
@@ -103,7 +104,7 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
     for (const Sonar& sonar : assembly.sonars) {
         if (!sonar.settings.multipath.on) continue;
         progress(sonar.config.name + ": multipath");
-        if (!engine) engine = make_engine(assembly.scene, engine_settings(mission, assembly));
+        if (!engine) engine = make_engine(assembly.scene, engine_settings(mission));
         measure_sonar(pings, sonar, *engine, options.rounds, rows);
     }
     return rows;

@@ -13,6 +13,7 @@
 #include "input/scene/copies.h"
 #include "run/checks/measured_error.h"
 #include "simulate/reference/image_error.h"
+#include "simulate/sonar/engine_settings.h"
 #include "simulate/visibility/local_pose.h"
 
 namespace sonarsim {
@@ -146,10 +147,9 @@ std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, con
         trial.sonar.settings.view.relative_l1 = setting.relative_l1;
         trial.poses.resize(pings.poses.size());
         const bool is_rays = setting.kind == EngineKind::rays;
-        trial.engine =
-            is_rays && rays
-                ? rays
-                : make_engine(assembly.scene, engine_settings(setting, pings.mission, assembly));
+        trial.engine = is_rays && rays ? rays
+                                       : make_engine(assembly.scene,
+                                                     engine_settings(setting.kind, setting.octree));
         if (is_rays) rays = trial.engine;
     }
     return trials;

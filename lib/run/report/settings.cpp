@@ -72,14 +72,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     return settings;
 }
 
-EngineSettings engine_settings(const Setting& setting, const Mission& mission,
-                               const Assembly& assembly) {
-    if (setting.kind != EngineKind::automatic) return engine_settings(setting.kind, setting.octree);
-    Mission chosen = mission;
-    chosen.engine = EngineKind::automatic;
-    return engine_settings(chosen, assembly);
-}
-
 std::string unsupported(const Setting& setting, const Assembly& assembly) {
     const EngineSettings engine = engine_settings(setting.kind, setting.octree);
     std::string refusal = unsupported(engine, assembly.scene);

@@ -28,10 +28,6 @@ struct Setting {
 /// and marked.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
-/// The settings to make the engine of a setting with.
-EngineSettings engine_settings(const Setting& setting, const Mission& mission,
-                               const Assembly& assembly);
-
 /// The error message of a mission with this setting, if the engine does not support the scene or a
 /// view of its sonars; empty otherwise.
 std::string unsupported(const Setting& setting, const Assembly& assembly);

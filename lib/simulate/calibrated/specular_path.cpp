@@ -57,7 +57,7 @@ std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& 
     paths.reserve(traced.bounces.size());
     for (const BouncePath& path : traced.bounces) {
         if (path.material == no_material) continue;
-        const Sample& sample = traced.samples.items[path.sample];
+        const Sample& sample = traced.starts().items[path.sample];
         paths.push_back(specular_path(path, sample, path.by_water_surface ? &*water : nullptr));
         paths.back().sample = path.sample;
         paths.back().reflection = scene.materials[sample.material].reflection * sample.strength *

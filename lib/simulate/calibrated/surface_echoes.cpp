@@ -38,6 +38,7 @@ class SurfaceEchoFinder {
                       ViewShape shape, bool patches, const UseEchoes& use)
         : model_(model),
           samples_(traced.samples.items),
+          starts_(traced.starts().items),
           shape_(shape),
           strengths_(traced, scene, shape),
           limits_(label_limits(model)),
@@ -68,18 +69,18 @@ class SurfaceEchoFinder {
     void add_multipath(const std::vector<SpecularPath>& paths) {
         blocks_.begin_multipath();
         const SonarEquation& equation = model_.equation;
-        find_specular_echoes(
-            paths, model_.scattering.materials, equation, model_.limits,
-            [&](const SpecularBlock& block) {
-                for (const auto& [beam, k, power] :
-                     received(block.places, block.echoes, &block.out)) {
-                    const float range_m =
-                        equation.range_min_m + (block.echoes.row[k] + 0.5F) * equation.bin_m;
-                    const SpecularPath& path = paths[block.path[k]];
-                    blocks_.add(static_cast<std::uint32_t>(beam), range_m, 0.0F, power, 1.0F,
-                                &samples_[path.sample], path.instance);
-                }
-            });
+        find_specular_echoes(paths, model_.scattering.materials, equation, model_.limits,
+                             [&](const SpecularBlock& block) {
+                                 for (const auto& [beam, k, power] :
+                                      received(block.places, block.echoes, &block.out)) {
+                                     const float range_m =
+                                         equation.range_min_m +
+                                         (block.echoes.row[k] + 0.5F) * equation.bin_m;
+                                     const SpecularPath& path = paths[block.path[k]];
+                                     blocks_.add(static_cast<std::uint32_t>(beam), range_m, 0.0F,
+                                                 power, 1.0F, &starts_[path.sample], path.instance);
+                                 }
+                             });
     }
 
     SurfaceEchoes take() {
@@ -134,6 +135,7 @@ class SurfaceEchoFinder {
 
     const CalibratedModel& model_;
     const std::vector<Sample>& samples_;
+    const std::vector<Sample>& starts_;  ///< the samples that multipath starts from
     ViewShape shape_;
     PieceStrengths strengths_;
     PointLimits limits_;  ///< for direct echoes

@@ -55,7 +55,7 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
     // 3, 4. The echoes of the multipath and their range noise.
     const auto bounces =
         std::span(traced.bounces).first(terms.multipath ? traced.bounces.size() : 0);
-    MultipathEchoes bounced = multipath_echoes(bounces, traced.samples, context.view, lattice);
+    MultipathEchoes bounced = multipath_echoes(bounces, traced.starts(), context.view, lattice);
     add_range_noise(bounced.echoes, noise, context.draws.of(Stream::multipath_range_noise));
     ping.counts.echoes = bounced.echoes.size();
 

@@ -66,10 +66,10 @@ SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& v
     add_direct(samples, view, scene, blocks);
     blocks.begin_multipath();
     const MultipathEchoes bounced =
-        multipath_echoes(traced.bounces, samples, view, ScattererLattice{});
+        multipath_echoes(traced.bounces, traced.starts(), view, ScattererLattice{});
     const auto surface_of = [&](std::uint32_t k) {
         const BouncePath& path = traced.bounces[bounced.path[k]];
-        return std::pair(&samples.items[path.sample], path.instance);
+        return std::pair(&traced.starts().items[path.sample], path.instance);
     };
     add_all(bounced.echoes, bounced.beam_begin, surface_of, blocks);
     blocks.flush();

@@ -20,23 +20,31 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     const View& view = settings.view;
     Samples& samples = traced.samples;
     samples = visible_surface(view, engine, T_world_sensor);
-    if (settings.targets) {
-        replace_samples(target_surface(*settings.targets, view, scene, engine, T_world_sensor),
-                        view, samples);
-    }
+    TargetSurface targets;
+    if (settings.targets)
+        targets = target_surface(*settings.targets, view, scene, engine, T_world_sensor);
+    replace_samples(targets, view, samples);
     add_behind_walls(settings.wall_transmissions, {view, scene, engine, T_world_sensor}, samples);
     traced.counts.samples += samples.items.size();
     traced.counts.dropped_samples = samples.dropped;
-    if (scene.maps) {
-        apply_maps(*scene.maps, view, T_world_sensor, samples, scene.sound_profile.get(),
-                   settings.map_strengths);
-    }
-    move_in_ping(motion, view, samples);
+    const auto finish = [&](Samples& of) {
+        if (scene.maps) {
+            apply_maps(*scene.maps, view, T_world_sensor, of, scene.sound_profile.get(),
+                       settings.map_strengths);
+        }
+        move_in_ping(motion, view, of);
+    };
+    finish(samples);
     if (settings.sees_water_surface)
         add_water_surface(view, scene, engine, T_world_sensor, motion, samples);
     traced.seconds.trace = watch.lap();
 
     // 2. Multipath, Eq. 1-3.
+    if (settings.multipath.on && &engine.by_rays() != &engine) {
+        traced.rays = visible_surface(view, engine.by_rays(), T_world_sensor);
+        replace_samples(targets, view, traced.rays);
+        finish(traced.rays);
+    }
     if (terms.multipath) trace_multipath(settings, scene, engine, traced);
     return traced;
 }
@@ -52,7 +60,7 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                    .engine = engine,
                                    .T_world_sensor = traced.T_world_sensor};
         traced.bounces =
-            find_bounces(settings.multipath, context, traced.samples, traced.counts.multipath);
+            find_bounces(settings.multipath, context, traced.starts(), traced.counts.multipath);
     }
     traced.seconds.multipath = watch.lap();
 }

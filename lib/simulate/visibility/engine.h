@@ -115,6 +115,10 @@ class VisibilityEngine {
         throw std::logic_error("this engine does not know of bodies that move");
     }
 
+    /// The engine whose samples multipath starts from: each is a place that a ray meets, and no
+    /// larger than the spacing of the rays. It must not outlive this engine.
+    virtual const VisibilityEngine& by_rays() const { return *this; }
+
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
 };

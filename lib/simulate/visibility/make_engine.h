@@ -19,15 +19,9 @@ constexpr std::size_t many_triangles = std::size_t{1} << 21;
 struct EngineSettings {
     EngineKind type = EngineKind::rays;
     OctreeOptions octree;  ///< for the octree only
-    /// For `automatic` only: the views that rays trace. Strips trace the others, or rays in scenes
-    /// with bodies, copies or many triangles.
-    std::vector<View> by_rays = {};
     /// A caster over the scene, whose trees the rays and the strips then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };
-
-/// False if rays suit a view of a scene of so many triangles better than strips.
-bool suits_strips(const View& view, std::size_t triangles);
 
 /// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is
 /// too small for the scene, and std::runtime_error when memory does not suffice.
@@ -39,8 +33,5 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene);
 
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.
 std::string unsupported(const EngineSettings& settings, const View& view);
-
-/// Warning text, with the mission's keys, if strips do not suit a sonar; empty otherwise.
-std::string strips_warning(const EngineSettings& settings, bool multipath);
 
 }  // namespace sonarsim

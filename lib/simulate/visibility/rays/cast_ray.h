@@ -20,7 +20,6 @@ struct CastRay {
     std::uint32_t facet = Caster::nothing;
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
-    bool fine = false;       ///< it met fine surface, which has pieces of its own
     int next = none;         ///< index of the next ray along the column
     bool continuous = true;  ///< the surface probably continues to the next ray
     float border = 0.5F;     ///< end of this ray's segment, as a share of the angle to the next

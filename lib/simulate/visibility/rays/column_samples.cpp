@@ -158,7 +158,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
     for (int i = column.first; i != CastRay::none; i = context.columns.rays[i].next) {
         const CastRay& ray = context.columns.rays[i];
         segment.to = border(context, column, i, ray.next);
-        if (!ray.missed() && !ray.fine) {
+        if (!ray.missed()) {
             const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
             const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
             const ColumnSides& sides = column.whole && strip ? middle : full;
@@ -176,7 +176,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
 }  // namespace
 
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, const Samples& fine, Samples& samples) {
+                        BeamRange beams, Samples& samples) {
     const Context context{view.shape, sampling, columns};
     samples.dropped += columns.dropped;
     if (samples.items.empty()) samples.items.reserve(columns.rays.size());
@@ -190,10 +190,6 @@ void add_column_samples(const View& view, const Sampling& sampling, const RayCol
         }
         for (; strip < columns.columns.size() && columns.columns[strip].beam == j; ++strip) {
             collect(context, columns.columns[strip], nullptr, samples.items);
-        }
-        if (!fine.items.empty()) {
-            const std::span<const Sample> pieces = fine.beam(j);
-            samples.items.insert(samples.items.end(), pieces.begin(), pieces.end());
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }

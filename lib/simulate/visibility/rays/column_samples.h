@@ -9,8 +9,8 @@ namespace sonarsim {
 /// flat patch of the plane that it met. If the surface is continuous from one ray to the next,
 /// their patches meet where the two planes do, so faceted surface is reproduced exactly; otherwise
 /// they end half way. Appends the samples of `beams` to `samples`, which holds those of the earlier
-/// beams. `fine` are the pieces of fine surface, which rays leave out.
+/// beams.
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, const Samples& fine, Samples& samples);
+                        BeamRange beams, Samples& samples);
 
 }  // namespace sonarsim

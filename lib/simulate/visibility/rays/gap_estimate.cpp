@@ -125,7 +125,6 @@ float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
 }
 
 bool disagree(const CastRay& a, const CastRay& b, const Sampling& sampling, float reach_m) {
-    if (a.fine || b.fine) return false;  // its pieces show where fine surface ends
     if (!in_reach(a, reach_m) && !in_reach(b, reach_m)) return false;
     if (a.missed() || b.missed()) return true;
     if (a.facet == b.facet) return false;

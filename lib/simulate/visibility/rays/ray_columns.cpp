@@ -34,15 +34,12 @@ std::vector<ViewColumn> columns_of(const View& view, int per_beam, BeamRange bea
 class ColumnCaster {
   public:
     ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
-                 const Sampling& sampling, BeamRange beams, const BentWater& water,
-                 const FineSurface* fine, const RaySpacing& spacing, RayColumns& out)
+                 const Sampling& sampling, BeamRange beams, const BentWater& water, RayColumns& out)
         : caster_(caster),
           water_(water),
           view_(view),
           pose_(pose),
           sampling_(sampling),
-          fine_(fine),
-          spacing_(spacing),
           reach_m_(static_cast<float>(view.range_max_m)),
           view_columns_(columns_of(view, sampling.columns, beams)),
           out_(out) {
@@ -222,8 +219,6 @@ class ColumnCaster {
             ray.range_m = ray.height_m / ray.cosine;
             ray.material = facet.material;
             ray.instance = facet.instance;
-            ray.fine = fine_ != nullptr &&
-                       fine_->has(ray.facet, (facet.vertex - pose_.position).norm(), spacing_);
             // A plane that is edge-on to within rounding has no range and reflects nothing.
             if (!(ray.cosine > 1e-7F && ray.range_m > nearest_m)) {
                 ray.facet = Caster::nothing;
@@ -281,8 +276,6 @@ class ColumnCaster {
     const View& view_;
     const LocalPose& pose_;
     const Sampling& sampling_;
-    const FineSurface* fine_;
-    const RaySpacing spacing_;
     const float reach_m_;
     const std::vector<ViewColumn> view_columns_;
     RayColumns& out_;
@@ -293,19 +286,10 @@ class ColumnCaster {
 
 }  // namespace
 
-RaySpacing spacing_of(const View& view, const Sampling& sampling) {
-    const ViewColumn column = view_columns(view, sampling.columns).front();
-    // The columns of a cone widen from its axis; this is their width half way.
-    const double radius = view.shape == ViewShape::cone ? 0.5 * column.along_max : 1.0;
-    return {static_cast<float>(radius * column.width),
-            static_cast<float>(sampling.step(column.along_max - column.along_min))};
-}
-
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling, BeamRange beams, const BentWater& water,
-                            const FineSurface* fine, const RaySpacing& spacing) {
+                            const Sampling& sampling, BeamRange beams, const BentWater& water) {
     RayColumns out;
-    ColumnCaster columns(caster, view, pose, sampling, beams, water, fine, spacing, out);
+    ColumnCaster columns(caster, view, pose, sampling, beams, water, out);
     columns.cast_whole_columns();
     columns.cast_edge_strips();
     columns.split_gaps();

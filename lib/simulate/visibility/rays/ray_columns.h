@@ -8,7 +8,6 @@
 #include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/cast_ray.h"
-#include "simulate/visibility/rays/fine_surface.h"
 #include "simulate/visibility/rays/sampling.h"
 #include "simulate/visibility/view.h"
 
@@ -45,14 +44,9 @@ struct BeamRange {
     int end;
 };
 
-/// The spacing of the rays of a view, before gaps are split.
-RaySpacing spacing_of(const View& view, const Sampling& sampling);
-
 /// Casts rays along every column of these beams. Adds edge strips where neighbouring columns
 /// disagree, and splits the gap between two neighbouring rays while its estimate is too uncertain.
-/// `fine` marks rays that met fine surface; null: none.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling, BeamRange beams, const BentWater& water = {},
-                            const FineSurface* fine = nullptr, const RaySpacing& spacing = {});
+                            const Sampling& sampling, BeamRange beams, const BentWater& water = {});
 
 }  // namespace sonarsim

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,7 +10,6 @@
 #include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/column_samples.h"
-#include "simulate/visibility/rays/fine_surface.h"
 #include "simulate/visibility/rays/ray_columns.h"
 
 namespace sonarsim {
@@ -30,38 +27,24 @@ constexpr int columns_along_track = 4;
 constexpr double sag_by_bin = 0.25;
 constexpr double sag_of_sight_lines_m = 0.01;
 
-/// Made for the first view that needs it.
-struct LazyFineSurface {
-    std::once_flag once;
-    std::optional<FineSurface> surface;
-};
-
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, int density,
-               std::shared_ptr<LazyFineSurface> fine = std::make_shared<LazyFineSurface>())
+    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, int density)
         : scene_(&scene),
           caster_(std::move(caster)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
-          density_(density),
-          fine_(std::move(fine)) {}
+          density_(density) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         Samples samples;
-        const FineSurface* const fine = fine_surface(view);
-        // More columns than the goal asks for resolve no more.
-        const RaySpacing spacing = spacing_of(view, sampling_for(view));
-        const Samples pieces =
-            fine ? fine->seen(caster_, view, T_world_sensor, spacing) : Samples{};
         const int together = beams_together(view, sampling);
         for (int begin = 0; begin < view.beams; begin += together) {
             const BeamRange beams{begin, std::min(begin + together, view.beams)};
-            const RayColumns columns =
-                cast_ray_columns(caster_, view, pose, sampling, beams,
-                                 water(sag_by_bin * view.bin_m()), fine, spacing);
-            add_column_samples(view, sampling, columns, beams, pieces, samples);
+            const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling, beams,
+                                                        water(sag_by_bin * view.bin_m()));
+            add_column_samples(view, sampling, columns, beams, samples);
         }
         return samples;
     }
@@ -84,21 +67,12 @@ class RaysEngine final : public VisibilityEngine {
         for (Pose& pose : T_local_body)
             pose.translation -= scene_->origin;
         return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), T_world_body,
-                                            density_, fine_);
+                                            density_);
     }
 
     std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
-    /// Null: the columns stand for all surface. A piece is seen by a straight ray. In a side or a
-    /// cone of few bins that hold means, pieces took a third more time for errors within the goal.
-    const FineSurface* fine_surface(const View& view) const {
-        const bool is_worth_it = view.energies_add || view.shape == ViewShape::fan;
-        if (scene_->sound_profile || !is_worth_it) return nullptr;
-        std::call_once(fine_->once, [&] { fine_->surface.emplace(*scene_); });
-        return &*fine_->surface;
-    }
-
     Sampling denser_sampling(View view) const {
         view.relative_l1 /= density_;
         Sampling sampling = sampling_for(view);
@@ -124,7 +98,6 @@ class RaysEngine final : public VisibilityEngine {
     Caster caster_;
     std::vector<Pose> T_world_body_;
     int density_;
-    std::shared_ptr<LazyFineSurface> fine_;
 };
 
 }  // namespace
