@@ -23,9 +23,9 @@ constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
 // Energies of the slanted pieces of ground add up to an even surface, whichever bins each of them
-// is in; a mean of a bin needs the area of each. Limiting wedges to one bin made 2.4 times as many
+// is in; a mean of a bin needs the area of each. Wedges of one bin at most made 2.4 times as many
 // samples.
-constexpr float wedge_of_energies = 16.0F;
+constexpr float wedge_of_energies = 4.0F;
 
 }  // namespace
 
