@@ -79,8 +79,7 @@ def write(path: pathlib.Path, build) -> None:
 
 def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
     """Makes the missing files that a mission names; 2 if no script makes one of them."""
-    known = {GENERATED / file: build for files in scenes.values()
-             for file, build in files.items()}
+    known = {GENERATED / file: build for files in scenes.values() for file, build in files.items()}
     known[ROOT / "scenes" / "tank.glb"] = tank.build
     missing = [path for path in files_named(mission, options)
                if not path.exists() and (path in known or path.parent == GENERATED)]
@@ -104,8 +103,7 @@ def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="name", help="one of those above")
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="default: scenes/ for the tank, scenes/generated/ for the others")

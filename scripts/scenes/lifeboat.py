@@ -23,8 +23,7 @@ def thwarts():
         u = -0.6 + 0.28 * k
         add_box(part, (LENGTH / 2 * u, 0.0, 0.75 * DEPTH), (0.22, 2 * half_breadth(u, 0.7), 0.03))
         for side in (-1, 1):
-            add_cylinder(part, (LENGTH / 2 * u, 0.4 * side, 0.05),
-                         (LENGTH / 2 * u, 0.4 * side, 0.75 * DEPTH), 0.02, 6)
+            add_cylinder(part, (LENGTH / 2 * u, 0.4 * side, 0.05), (LENGTH / 2 * u, 0.4 * side, 0.75 * DEPTH), 0.02, 6)
     return part
 
 
@@ -41,8 +40,7 @@ def rails():
                 add_cylinder(part, (*a[:2], a[2] + up), (*b[:2], b[2] + up), 0.01, 6)
     for u in (-0.4, -0.1, 0.2):
         x, y, z = hull_point(u, 1.0, 1)
-        arc = [(x, y * math.cos(math.pi * k / 10), z + 0.9 * math.sin(math.pi * k / 10))
-               for k in range(11)]
+        arc = [(x, y * math.cos(math.pi * k / 10), z + 0.9 * math.sin(math.pi * k / 10)) for k in range(11)]
         add_line(part, arc, 0.015, 6)
     return part
 
@@ -74,8 +72,7 @@ def gear():
     add_cylinder(part, (-3.0, 0.0, 0.2), (-3.9, 0.0, 0.1), 0.03, 10)
     for k in range(4):
         angle = math.radians(90 * k)
-        add_box(part, (-3.9, 0.14 * math.cos(angle), 0.1 + 0.14 * math.sin(angle)),
-                (0.02, 0.12, 0.2), 20.0)
+        add_box(part, (-3.9, 0.14 * math.cos(angle), 0.1 + 0.14 * math.sin(angle)), (0.02, 0.12, 0.2), 20.0)
     for x, y in ((1.6, 0.4), (1.6, -0.4), (2.1, 0.0)):
         add_cylinder(part, (x, y, 0.15), (x, y, 0.85), 0.2, 20)
     for x in (-1.2, 0.9):

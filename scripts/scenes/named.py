@@ -38,8 +38,7 @@ def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]
     """Absolute paths of the .glb, .obj, .tif and .png files in a mission and in options of sonarsim, as in
     `--set scene.file=a.glb`, in their order. Relative paths start at the folder of the mission, or
     at `--paths-from`. OSError where the mission cannot be read."""
-    options = [part for option in options
-               for part in (option.split("=", 1) if option.startswith("--") else [option])]
+    options = [part for option in options for part in (option.split("=", 1) if option.startswith("--") else [option])]
     base = mission.resolve().parent
     if "--paths-from" in options[:-1]:
         base = pathlib.Path(options[options.index("--paths-from") + 1]).resolve()

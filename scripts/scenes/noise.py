@@ -40,8 +40,7 @@ class Relief:
     """Octaves of noise, each half as wide and half as high as the one before."""
 
     def __init__(self, spacing, amplitude, octaves, seed):
-        self.octaves = [(amplitude / 2**n, Noise2(spacing / 2**n, seed + n))
-                        for n in range(octaves)]
+        self.octaves = [(amplitude / 2**n, Noise2(spacing / 2**n, seed + n)) for n in range(octaves)]
 
     def __call__(self, x, y):
         return sum(amplitude * noise(x, y) for amplitude, noise in self.octaves)

@@ -62,8 +62,8 @@ def didson(version=4, frames=2, samples=5, start=4):
 def aris(frames=2, samples=5, ordered=1):
     out = placed(1024, (0, "I", 0x05464444), (16, "I", 48), (24, "I", samples))
     for k in range(frames):
-        out += placed(1024, (12, "I", 0x05464444), (20, "Q", 2000000 * (k + 1)), (452, "I", 8), (464, "f", 1450.0),
-                      (468, "I", samples), (476, "I", 1000), (516, "I", ordered)) + counted(48 * samples, k)
+        out += placed(1024, (12, "I", 0x05464444), (20, "Q", 2000000 * (k + 1)), (440, "I", 1), (452, "I", 8), (464, "f", 1450.0),
+                      (468, "I", samples), (476, "I", 1000), (484, "I", 2), (516, "I", ordered)) + counted(48 * samples, k)
     return out
 
 

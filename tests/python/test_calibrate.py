@@ -1,5 +1,6 @@
 """sonarsim.calibrate: fits of synthetic pings with drawn numbers, a small dataset, and what is refused."""
 import contextlib
+import dataclasses
 import io
 import json
 import os
@@ -290,6 +291,24 @@ class Command(ToolTest):
                 self.assertEqual(preset.program_of(package), "sonarsim")
                 program.touch()
                 self.assertEqual(preset.program_of(package), str(program))
+
+    def test_a_pass_writes_nothing_into_the_folder_of_the_caller(self):
+        (self.folder / "out").touch()   # where nothing can be written
+        start = preset.read_start(str(ROOT / "configs/sensors/ping360.yaml"))
+        start.shape = {"range_min_m": 0.1, "range_max_m": 2.0, "range_bins": 50}
+        with contextlib.chdir(self.folder):
+            one = scene.pass_of(start, scene.with_shape(start, start.text), scene.usual_mission("scanning", 2.0, (1.0, 0.5)),
+                                "sonar", None)
+        self.assertEqual(one.values.shape[1:], (50, 1))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["out", "start.yaml"])
+
+    def test_the_frequency_of_the_pings(self):
+        start = preset.read_start("aris_3000")
+        pings = dataclasses.replace(recording_of(noise_of(np.random.default_rng(1))), range_step_m=0.1)
+        with self.assertRaisesRegex(CalibrationError, "water absorbs [0-9]+ dB.*frequency_hz in recording.yaml"):
+            preset.set_shape(start, pings, [])
+        preset.set_shape(start, dataclasses.replace(pings, frequency_hz=1.2e6), [])
+        self.assertEqual(start.shape["instrument.frequency_hz"], "1.2e+06")
 
     def test_what_is_refused(self):
         pings = recording_of(noise_of(np.random.default_rng(1))).values.astype(np.uint8)

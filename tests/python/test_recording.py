@@ -68,8 +68,13 @@ class RecordingTest(tool.ToolTest):
             if name == "angle":
                 array[1, 2] = np.nan
             np.save(self.folder / f"{name}.npy", array)
-        recording = self.opened("kind: soundings\nlaw: {kind: power, full_value: 0}\nsound_speed_m_s: 1500\nrate_hz: 1\n"
-                                "soundings: {range_m: range.npy, angle_rad: angle.npy, intensity: level.npy}\n")
+        text = ("kind: soundings\nlaw: {kind: power}\nsound_speed_m_s: 1500\nrate_hz: 1\n"
+                "soundings: {range_m: range.npy, angle_rad: angle.npy, intensity: level.npy}\n")
+        np.save(self.folder / "level.npy", np.full((2, 3), 5, np.uint16))
+        self.assertEqual(self.opened(text).law.full_value, 65535.0)
+        np.save(self.folder / "level.npy", np.full((2, 3), 5.0, np.float32))
+        recording = self.opened(text)
+        self.assertEqual(recording.law.full_value, 0.0)     # floats have none
         self.assertEqual(np.isfinite(recording.soundings.range_m).sum(axis=1).tolist(), [3, 2])
 
     def test_each_format(self):
@@ -88,6 +93,7 @@ class RecordingTest(tool.ToolTest):
         self.assertEqual(own.law, Law("decibel", range_db=90.0))
         np.testing.assert_allclose(np.degrees(own.bearing_rad[[0, -1]]), [14, -14])
         own = opened["aris"]
+        self.assertEqual(own.frequency_hz, 1.2e6)    # the high one of an ARIS 1200
         self.assertEqual(own.values[1, 2, 7], 2 * 48 + 7 + 1)
         self.assertAlmostEqual(own.first_range_m, 0.5 * 1450 * 1004e-6)
         own = opened["ping360"]

@@ -246,8 +246,7 @@ class Sensor:
         azimuths = middles(self.azimuth_edges_rad)[None, :]
         row = (self.range_edges_m[-1] - ranges * np.cos(azimuths)) / pixel_m
         column = 0.5 * width - ranges * np.sin(azimuths) / pixel_m
-        return fan[np.clip(row.astype(int), 0, height - 1),
-                   np.clip(column.astype(int), 0, width - 1)]
+        return fan[np.clip(row.astype(int), 0, height - 1), np.clip(column.astype(int), 0, width - 1)]
 
     def points(self, sample, frame="world", spread_rad=math.inf):
         """The Points of a ping of a fan, in the frame "world", "vehicle" or "sensor": for each bin with visible surface
@@ -315,8 +314,7 @@ def torch_dataset(sensor, names=("polar",), transform=None):
         def __getitem__(self, index):
             # torch has no uint16; ids fit its int32.
             arrays = [np.array(sensor.read(index, name)) for name in names]
-            tensors = tuple(torch.from_numpy(a.astype(np.int32) if a.dtype == np.uint16 else a)
-                            for a in arrays)
+            tensors = tuple(torch.from_numpy(a.astype(np.int32) if a.dtype == np.uint16 else a) for a in arrays)
             return transform(tensors) if transform else tensors
 
         def __reduce__(self):       # for the workers of a DataLoader

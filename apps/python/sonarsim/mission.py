@@ -43,8 +43,7 @@ def open(mission: Path | Mapping[str, Any], set: Mapping[str, Any] | None = None
 def load(mission: Path | Mapping[str, Any], set: Mapping[str, Any] | None = None, *,
          paths_from: Path | None = None) -> Mission:
     """As open(), without reading the files that the mission names. They are read for the first ping."""
-    settings = [f"{key}={value if isinstance(value, str) else _yaml(value)}"
-                for key, value in (set or {}).items()]
+    settings = [f"{key}={value if isinstance(value, str) else _yaml(value)}" for key, value in (set or {}).items()]
     if isinstance(mission, Mapping):
         file, text, folder = "mission", _yaml(mission), os.getcwd()
     else:
@@ -249,8 +248,7 @@ class Mission:
         shares = self._shares(*shards)
         if not self.variants:
             return _ahead(self._jobs(sensor, shares[0][1]), threads)
-        return (ping for k, rest in shares
-                for ping in self.variants[k].pings(sensor, threads=threads, shard=rest))
+        return (ping for k, rest in shares for ping in self.variants[k].pings(sensor, threads=threads, shard=rest))
 
     def _shares(self, *shards: tuple[int, int]) -> list[tuple[int, tuple[int, int]]]:
         """The variants of a shard, or of a shard of a shard, each with the shard of its pings. A mission

@@ -13,6 +13,7 @@ import yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
+MOST_ABSORBED_DB = 100.0    # more than any sonar has to spare
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
@@ -100,23 +101,33 @@ def set_shape(start, recording, settings):
         extent = 2.0 * np.arcsin(min(0.5 * extent, 1.0)) if is_sine else extent
         start.shape.update({"azimuth_deg": float(np.degrees(extent)), "azimuth_bins": beams,
                             "instrument.beam.spread": "sine" if is_sine else "angle"})
+    if recording.frequency_hz:
+        start.shape["instrument.frequency_hz"] = f"{recording.frequency_hz:g}"
     set_levels(start, [*settings, f"water.sound_speed_m_s={recording.sound_speed_m_s}"])
+    absorbed_db = 2.0 * start.absorption_db_per_m * start.shape["range_max_m"]
+    if absorbed_db > MOST_ABSORBED_DB:
+        raise CalibrationError(f"water absorbs {absorbed_db:.0f} dB over the range of the pings at the frequency of "
+                               f"{start.file}: give that of the sonar, frequency_hz in recording.yaml")
 
 
 def set_levels(start, settings):
     """Gives the start the levels that the program computes for its shape."""
     settings = [*(f"sensors.sonar.{key}={value}" for key, value in start.shape.items()), *settings]
-    command = [PROGRAM, "preset", str(start.file), "--json", *(f"--set={setting}" for setting in settings)]
+    found = json.loads(run_program("preset", start.file, "--json", *(f"--set={setting}" for setting in settings)))
+    for key in ("noise_db", "full_scale_db", "absorption_db_per_m"):
+        setattr(start, key, found[key])
+
+
+def run_program(*words):
+    """What the program prints. CalibrationError with the last line of its messages."""
     try:
-        run = subprocess.run(command, capture_output=True, text=True, check=False)
-        if run.returncode:
-            raise CalibrationError((run.stderr.strip().splitlines() or ["it failed"])[-1].removeprefix("error: "))
-        found = json.loads(run.stdout)
-        for key in ("noise_db", "full_scale_db", "absorption_db_per_m"):
-            setattr(start, key, found[key])
-    except (OSError, json.JSONDecodeError, KeyError) as fault:
-        raise CalibrationError(f"{PROGRAM}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
-                               "path of the program") from fault
+        run = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+    except OSError as fault:
+        raise CalibrationError(f"{PROGRAM}: {fault.strerror}; set SONARSIM to the path of the program") from fault
+    if run.returncode:
+        last = (run.stderr.strip().splitlines() or ["it failed"])[-1]
+        raise CalibrationError(json.loads(last)["message"] if last.startswith("{") else last.removeprefix("error: "))
+    return run.stdout
 
 
 def new_keys(start, fit):

@@ -1,7 +1,6 @@
 """Scenes as the program renders them with a preset: their echoes without noise, and passes to judge a fit by."""
 import json
 import pathlib
-import subprocess
 import tempfile
 
 import numpy as np
@@ -12,7 +11,7 @@ from ..compare.images import images_of, zones_of
 from ..data import middles, open_datasets
 from ..recording.dataset import recording_of
 from ..recording.description import read_yaml
-from .preset import PROGRAM, with_key
+from .preset import run_program, with_key
 from .statistics import CalibrationError
 
 MOST_VARIANTS, ABOUT_PINGS = 10, {"imaging": 10, "sidescan": 64, "scanning": 64, "echosounder": 64}
@@ -75,23 +74,17 @@ def rendered(start, text, mission, name, paths_from, settings, read):
         rules = [rule for rule in mission.get("vary") or [] if not str(rule.get("key")).startswith("sensors.")
                  or str(rule["key"]).startswith(f"sensors.{name}.mount.")]
         mission = {**mission, "sensors": {name: {**own, "preset": str(folder / "preset.yaml")}}, "vary": rules,
-                   "output": {"fan": False, "polar": True}, "variants": min(mission.get("variants") or 0, MOST_VARIANTS)}
+                   "output": {"fan": False, "polar": True, "folder": str(folder / "out")},
+                   "variants": min(mission.get("variants") or 0, MOST_VARIANTS)}
         words = [f"--paths-from={paths_from or folder}", *(f"--set={one}" for one in settings)]
 
         def program(command, *more):
             (folder / "mission.yaml").write_text(yaml.safe_dump(mission), "utf-8")
-            run = subprocess.run([PROGRAM, command, str(folder / "mission.yaml"), *words, *more],
-                                 capture_output=True, text=True, check=False)
-            if run.returncode:
-                raise CalibrationError(f"{mission.get('name')}: {(run.stderr.strip().splitlines() or ['it failed'])[-1]}")
-            return run.stdout
-        try:
-            found = json.loads(program("validate", "--json"))
-            pings = found["pings"] if "pings" in found else found["sensors"][name]["pings"]
-            mission["sensors"][name]["every"] = max(pings // ABOUT_PINGS[start.kind], 1)
-            program("render", "-q", "--out", str(folder / "out"))
-        except OSError as fault:
-            raise CalibrationError(f"{PROGRAM}: {fault.strerror}; set SONARSIM to the path of the program") from fault
+            return run_program(command, folder / "mission.yaml", *words, *more)
+        found = json.loads(program("validate", "--json"))
+        pings = found["pings"] if "pings" in found else found["sensors"][name]["pings"]
+        mission["sensors"][name]["every"] = max(pings // ABOUT_PINGS[start.kind], 1)
+        program("render", "-q")
         return read(folder / "out")
 
 

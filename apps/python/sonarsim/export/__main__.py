@@ -60,8 +60,7 @@ def parse(arguments):
     add("--without", action="append", default=[], metavar="CLASS", help="a class that is not an object; may be repeated")
     add("--min-pixels", type=int, default=16, metavar="N", help="fewer make an object faint")
     add("--min-visible-share", type=float, default=0.1, metavar="X", help="less makes it faint")
-    add("--min-contrast-db", type=float, default=1.0, metavar="DB",
-        help="less, of object and shadow, makes it faint")
+    add("--min-contrast-db", type=float, default=1.0, metavar="DB", help="less, of object and shadow, makes it faint")
     add("--min-grey", type=float, default=12, metavar="N",
         help="an object is faint if it stands out of its surroundings and their grain by fewer greys, of 255; 0: none is")
     add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")

@@ -231,5 +231,4 @@ class Crops(Format):
         pass
 
 
-KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops,
-         "hf": HuggingFace}
+KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops, "hf": HuggingFace}

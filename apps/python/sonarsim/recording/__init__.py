@@ -24,6 +24,7 @@ def open_recording(path, sensor=None, pings=None):
     if file.exists():
         own = read_description(file)
         recording = (read_soundings if own.source == "soundings" else read_files)(own, most_pings)
+        recording.frequency_hz = recording.frequency_hz or own.frequency_hz or 0.0
         if own.full_value_is_auto or own.law is None:
             full_value = recording.found_full_value()
             recording.law = dataclasses.replace(recording.law, **({"full_value": full_value} if full_value else {}))

@@ -75,6 +75,8 @@ def read_soundings(own, most_pings):
     for array, path in zip(arrays, own.files):
         if array.ndim != 2 or array.shape != arrays[0].shape:
             raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
+    if own.full_value_is_auto:      # floats have none
+        own.law.full_value = float(np.iinfo(arrays[2].dtype).max) if arrays[2].dtype.kind == "u" else 0.0
     arrays = np.array([array[:most_pings] for array in arrays], np.float32)
     arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
     return Recording(own.kind, own.law, "", own.sound_speed_m_s, soundings=Soundings(*arrays))

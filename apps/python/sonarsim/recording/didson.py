@@ -13,6 +13,7 @@ MOST_SAMPLES = 65536
 CLASSIC_PERIOD_S, EXTENDED_PERIOD_S = 0.000512, 0.000572
 LAST_CLASSIC_SERIAL = 18
 MOST_PERIODS = 1000
+FREQUENCIES_HZ = {0: (1.1e6, 1.8e6), 1: (1.8e6, 3e6), 2: (7e5, 1.2e6)}    # of an ARIS 1800, 3000 and 1200: low, high
 
 
 def read(data, most_pings, own):
@@ -42,7 +43,8 @@ def facts_of_aris(data, found, own):
         raise ValueError("has a frame without a speed of sound")
     times = [(1e-6 * field(frame, "I", 476), 1e-6 * field(frame, "I", 452)) for frame in found]     # delay, period
     return {"ranges_s": [(delay + 0.5 * period, period) for delay, period in times], "speed_m_s": speed,
-            "law": law_of(own)}
+            "law": law_of(own), "frequency_hz": FREQUENCIES_HZ.get(field(found[0], "I", 484), (0.0, 0.0))[
+                field(found[0], "I", 440) & 1]}
 
 
 def facts_of_didson(data, found, own):

@@ -26,7 +26,7 @@ def read(data, most_pings, own):
     recording = timed_recording(
         "echosounder", [ping["steps"][:, None] for ping in pings], own,
         [(ping["offset"] * ping["sample_s"], ping["sample_s"]) for ping in pings], pings[0]["sound_speed_m_s"],
-        law=decibel_law(own, RANGE_DB, RANGE_DB))
+        law=decibel_law(own, RANGE_DB, RANGE_DB), frequency_hz=near[0])
     recording.values = np.maximum(np.float32(DB_PER_STEP) * recording.values + np.float32(RANGE_DB), np.float32(0.0))
     return recording
 

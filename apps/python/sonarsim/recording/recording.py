@@ -61,6 +61,7 @@ class Recording:
     sound_speed_m_s: float = 1500.0
     first_range_m: float = 0.0              # slant range of the middle of the first sample
     range_step_m: float = 0.0
+    frequency_hz: float = 0.0               # of the sound; 0: not known
     bearing_rad: np.ndarray | None = None   # of each beam of the kind imaging, positive to port
     # float32 [ping, range, beam] as delivered, the law not undone; side-scan: 2 beams, port first;
     # scanning and echosounder: 1 beam; soundings: None.
