@@ -1,6 +1,7 @@
 """The greys of raw/ by every preset over sand: as instruments deliver them, neither black nor white."""
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ scene:
   materials: {materials}
   seabed: {{material: sand, size_m: [{size}, {size}], cell_m: {cell}, z_m: -{height},
            roughness: {{spectral_strength_cm4: 0.0044, spectral_exponent: 3.25, corner_m: 2}}}}
+  objects: {objects}
 trajectory:
   waypoints: [{{position_m: [{middle}, {middle}, 0]}}, {{position_m: [{end}, {middle}, 0]}}]
   speed_m_s: 1
@@ -39,18 +41,32 @@ class PresetGreys(unittest.TestCase):
                 self.assertLess(np.mean(grey == 1), 0.05)
                 self.assertTrue(6 < 255 * np.mean(grey) < 140, 255 * np.mean(grey))
 
-    def greys(self, preset, folder):
-        """raw/ of all pings over its largest value."""
+    def test_cameras_have_the_greys_of_their_fans(self):
+        """In fans of an ARIS 3000 a tenth is below 39, the median is 71, and highlights are 42 dB above the dark."""
+        for name in ("aris_3000", "didson_1800khz"):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                path = ROOT / f"configs/sensors/{name}.yaml"
+                grey = 255 * self.greys(path, pathlib.Path(folder), has_anchor=True)
+                grey = grey[:, grey.shape[1] // 4:]     # without the ring
+                dark, median = np.quantile(grey, [0.1, 0.5])
+                highlight_db = (grey.max() - dark) / 255 * float(re.search(r"dynamic_range_db: (\d+)", path.read_text())[1])
+                self.assertLess(np.mean(grey == 0), 0.01)
+                self.assertTrue(25 < dark < 50 and 50 < median < 95 and 33 < highlight_db < 50, (dark, median, highlight_db))
+
+    def greys(self, preset, folder, has_anchor=False):
+        """raw/ of all pings over its largest value. The anchor, of steel, lies in the beam of a fan."""
         keys = dict(line.split("  #")[0].split(": ") for line in preset.read_text().splitlines()
                     if line.startswith(("kind:", "range_max_m:")))
         range_m = float(keys["range_max_m"])
         near = range_m < 2.2  # recorded half a metre above the bottom
         height, pings = SCENES[keys["kind"]]
+        anchor = (f"[{{name: anchor, file: {ROOT}/scenes/anchor.obj, units: mm, up: z, material: steel, place: on_bottom, "
+                  f"position_m: [{1.67 * range_m}, {1.25 * range_m}, 0], rpy_deg: [0, 70, 30]}}]")
         mount = f", mount: {{rpy_deg: [0, {50 if near else 20}, 0]}}" if keys["kind"] == "imaging" else ""
         (folder / "mission.yaml").write_text(MISSION.format(
             materials=ROOT / "scenes/materials.csv", size=2.5 * range_m, cell=max(range_m / 200, 0.05),
             height=(0.4 if near else height) * range_m, middle=1.25 * range_m, end=1.26 * range_m, preset=preset.stem,
-            mount=mount, rate=100 * pings / range_m))
+            mount=mount, objects=anchor if has_anchor else [], rate=100 * pings / range_m))
         # The error is measured in the first variant alone, which takes longer than the pings.
         words = ("render", "mission.yaml", "--quiet", "--out", "out", "--shard", "2/2")
         subprocess.run([os.environ["SONARSIM"], *words], cwd=folder, check=True)
