@@ -166,12 +166,17 @@ TEST_SUITE("calibrated") {
         const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
         for (const std::uint32_t ping : {3U, 9U}) {
             std::vector<float> image(16, 1.0F);
-            CHECK(has_faults(receiver));
             add_faults(receiver, rows, {1, 2, ping}, image);
             for (int k = 0; k < 16; ++k) {
                 CHECK(10.0 * std::log10(image[k]) ==
                       test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
             }
         }
+        receiver = {};
+        receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
+        std::vector<float> image(16, 1.0F);
+        add_faults(receiver, rows, {1, 2, 3}, image);
+        CHECK(10.0 * std::log10(image[7]) == test::approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
+        CHECK(image[8] == image[7]);
     }
 }

@@ -99,6 +99,7 @@ struct ReceiverConfig {
     double ring_down_db = 0.0;        ///< at range 0, above the noise; 0: none
     double ring_down_m = 0.1;         ///< range over which it falls by 10 dB
     double beam_gain_db = 0.0;        ///< standard deviation of the gains of the beams
+    double edge_loss_db = 0.0;        ///< loss of the outermost beams
     double reverberation_db = -20.0;  ///< energy of the tail of an echo over the echo's
     double reverberation_s = 0.0;     ///< time in which it falls by 60 dB; 0: none
     double interference_per_s = 0.0;  ///< rate of foreign pulses
@@ -261,6 +262,8 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "mean loss of such a ping, exponentially distributed");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of single beams, which stay from ping to ping");
+    v.number("edge_loss_db", c.edge_loss_db, between(0, 30),
+             "loss of the outermost beams, from the middle on with the square of their number");
 }
 
 template <class Visitor>

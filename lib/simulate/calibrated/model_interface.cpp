@@ -44,8 +44,7 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         detected.apply(mean, ping.intensity);
     }
     // Faults belong to the receiver's noise, the last of the random terms.
-    if (context.terms.random > 1 && has_faults(receiver))
-        add_faults(receiver, rows, context.draws, ping.intensity);
+    if (context.terms.random > 1) add_faults(receiver, rows, context.draws, ping.intensity);
     ping.seconds.accumulate = watch.lap();
 }
 

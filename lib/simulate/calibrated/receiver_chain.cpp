@@ -29,8 +29,11 @@ void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::spa
 void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                       std::span<float> image) {
     std::vector<float> gains(rows.beams);
-    for (int beam = 0; beam < rows.beams; ++beam)
-        gains[beam] = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws)));
+    for (int beam = 0; beam < rows.beams; ++beam) {
+        const double off = (2.0 * beam + 1.0) / rows.beams - 1.0;  // the middle of the fan: 0
+        gains[beam] = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws) -
+                                                     receiver.edge_loss_db * off * off));
+    }
     for (std::size_t first = 0; first < image.size(); first += gains.size()) {
         for (std::size_t beam = 0; beam < gains.size(); ++beam)
             image[first + beam] = std::min(gains[beam] * image[first + beam], max_value);
@@ -84,11 +87,6 @@ void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span
     }
 }
 
-bool has_faults(const ReceiverConfig& receiver) {
-    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0 ||
-           receiver.interference_per_s > 0.0 || receiver.loss_share > 0.0;
-}
-
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
     const std::uint32_t word = philox({static_cast<std::uint32_t>(beam), 0, 0, 0}, key).x0;
@@ -101,7 +99,8 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
     if (receiver.interference_per_s > 0.0)
         add_interference(receiver, rows, draws.of(stream_named("interference")), image);
-    if (receiver.beam_gain_db > 0.0) apply_beam_gains(receiver, rows, draws, image);
+    if (receiver.beam_gain_db > 0.0 || receiver.edge_loss_db > 0.0)
+        apply_beam_gains(receiver, rows, draws, image);
 }
 
 }  // namespace sonarsim

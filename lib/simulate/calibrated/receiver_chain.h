@@ -11,9 +11,6 @@ namespace sonarsim {
 // The stages of a receiver after its beams and its gain; section 5 of docs/calibrated.md. Each is
 // off by default.
 
-/// True if any stage changes an image.
-bool has_faults(const ReceiverConfig& receiver);
-
 /// The rows of an image in range.
 struct ImageRows {
     double range_min_m = 0.0;
