@@ -18,8 +18,7 @@ find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util)
 find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h)
 find_package(TIFF)
 if(OPENIMAGEIO_LIBRARY AND OPENIMAGEIO_UTIL_LIBRARY AND OPENIMAGEIO_INCLUDE_DIR AND TIFF_FOUND)
-    add_library(sonarsim_images MODULE apps/modules/images.cpp apps/modules/exr_header.cpp
-                apps/modules/tiff_header.cpp)
+    add_library(sonarsim_images MODULE apps/modules/images.cpp apps/modules/tiff_header.cpp)
     target_include_directories(sonarsim_images PRIVATE lib)
     target_include_directories(sonarsim_images SYSTEM PRIVATE ${OPENIMAGEIO_INCLUDE_DIR} ${TIFF_INCLUDE_DIRS})
     target_link_libraries(sonarsim_images PRIVATE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY}

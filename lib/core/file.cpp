@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -174,6 +175,42 @@ void write_file_durably(const std::filesystem::path& path, std::string_view byte
 void sync_file_system(const std::filesystem::path& folder) {
     const Descriptor any(folder, O_RDONLY | O_DIRECTORY);
     if (any.get() < 0 || ::syncfs(any.get()) != 0) throw_errno("cannot write", folder);
+}
+
+StreamedFile::StreamedFile(const std::filesystem::path& path)
+    : atomic_file_(path), file_(std::fopen(atomic_file_.part().c_str(), "wbe")) {
+    if (!file_) throw_errno("cannot write", atomic_file_.part());
+}
+
+void StreamedFile::append(std::string_view bytes) {
+    constexpr std::size_t max_pending = std::size_t{1} << 16;
+    pending_ += bytes;
+    if (pending_.size() < max_pending) return;
+    put(pending_);
+    pending_.clear();
+}
+
+void StreamedFile::put(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+        throw_errno("cannot write", atomic_file_.part());
+    }
+}
+
+void StreamedFile::finish() {
+    put(pending_);
+    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", atomic_file_.part());
+    atomic_file_.commit();
+}
+
+ScratchFolder::ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "sonarsim-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw_errno("cannot make", name);
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +55,40 @@ class AtomicFile {
     std::filesystem::path path_;
     std::filesystem::path part_;
     bool committed_ = false;
+};
+
+/// A file of any length that is written in pieces. std::system_error when the disk refuses.
+class StreamedFile {
+  public:
+    explicit StreamedFile(const std::filesystem::path& path);
+    void append(std::string_view bytes);
+    void finish();
+
+  private:
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+
+    void put(std::string_view bytes);
+
+    AtomicFile atomic_file_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::string pending_;  ///< buffer, since lines are appended by the thousand
+};
+
+/// An empty folder for temporary files, which goes with this object. std::system_error when the
+/// disk refuses.
+class ScratchFolder {
+  public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
 };
 
 }  // namespace sonarsim

@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/file.h"
 
 namespace sonarsim {
 

@@ -64,6 +64,13 @@ std::string number_text(double value) {
     return {buffer.data(), result.ptr};
 }
 
+std::string short_text(double value, int digits) {
+    std::array<char, 32> buffer{};
+    const auto rounded = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                       std::chars_format::scientific, digits - 1);
+    return number_text(*parse_number({buffer.data(), rounded.ptr}));
+}
+
 std::string_view trim(std::string_view text) {
     constexpr std::string_view blank = " \t\r\n";
     const auto first = text.find_first_not_of(blank);

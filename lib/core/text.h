@@ -19,6 +19,9 @@ std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 /// The shortest decimal text that reads back as the same number.
 std::string number_text(double value);
 
+/// A few digits and no exponent, as people write a share or a percentage: "0.026", "3", "120".
+std::string short_text(double value, int digits = 2);
+
 std::string_view trim(std::string_view text);
 
 /// The text of a file without the UTF-8 byte order mark that some editors put at its start.

@@ -1,6 +1,5 @@
 #include "simulate/calibrated/instrument_levels.h"
 
-#include "simulate/calibrated/ambient_noise.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/example_bottoms.h"
@@ -44,12 +43,17 @@ InstrumentLevels levels_of(const SonarConfig& config, const WaterConfig& water =
 TEST_SUITE("calibrated") {
     // -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4) of kHz, by hand.
     TEST_CASE("levels: noise of heat and of the wind at three frequencies") {
-        CHECK(std::fabs(thermal_noise_db(1e5) - 25.0) < 1e-9);
-        CHECK(std::fabs(thermal_noise_db(4e5) - 37.0412) < 1e-3);
-        CHECK(std::fabs(thermal_noise_db(1e6) - 45.0) < 1e-9);
-        CHECK(std::fabs(wind_noise_db(1e3, 0.0) - 44.1549) < 1e-3);
-        CHECK(std::fabs(wind_noise_db(1e4, 5.0) - 46.0891) < 1e-3);
-        CHECK(std::fabs(wind_noise_db(3.8e4, 4.0) - 33.2221) < 1e-3);
+        const auto at = [](double frequency_hz, double wind_m_s) {
+            SonarConfig config = imaging();
+            config.instrument.frequency_hz = frequency_hz;
+            return levels_of(config, {.wind_m_s = wind_m_s});
+        };
+        CHECK(std::fabs(at(1e5, 0.0).thermal_noise_db - 25.0) < 1e-9);
+        CHECK(std::fabs(at(4e5, 0.0).thermal_noise_db - 37.0412) < 1e-3);
+        CHECK(std::fabs(at(1e6, 0.0).thermal_noise_db - 45.0) < 1e-9);
+        CHECK(std::fabs(at(1e3, 0.0).wind_noise_db - 44.1549) < 1e-3);
+        CHECK(std::fabs(at(1e4, 5.0).wind_noise_db - 46.0891) < 1e-3);
+        CHECK(std::fabs(at(3.8e4, 4.0).wind_noise_db - 33.2221) < 1e-3);
     }
 
     // 4 pi over the integral of the pattern over all directions. With u and v the sines along the

@@ -1,11 +1,100 @@
 #include "input/mission/resolved.h"
 
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
 #include "core/hash.h"
 #include "input/mission/files.h"
+#include "input/mission/key_visitor.h"
 #include "input/mission/mission.h"
-#include "input/mission/writer.h"
+#include "input/mission/sonar_keys.h"
 
 namespace sonarsim {
+
+namespace {
+
+/// The visitor that writes a mission as YAML, with all values. It checks nothing.
+class MissionWriter : public KeyVisitor<MissionWriter> {
+  public:
+    explicit MissionWriter(SonarKeyTable sonars) : sonars_(sonars) {}
+
+    const std::string& yaml() const { return yaml_; }
+
+    template <class T, class Type>
+    void value(const char* key, const T& value, const Type& type, const char* /*meaning*/,
+               Presence) {
+        const std::string text = yaml_of(type, value);
+        if (!text.empty()) line(key, text);
+    }
+
+    template <class T>
+    void section(std::string_view key, T& value, const char* /*meaning*/,
+                 Presence = Presence::optional) {
+        line(key, "");
+        indent_ += 2;
+        describe(*this, value);
+        indent_ -= 2;
+    }
+
+    template <class T>
+    void section(std::string_view key, std::optional<T>& value, const char* meaning) {
+        if (value) section(key, *value, meaning);
+    }
+
+    template <class T>
+    void list_of(const char* key, std::vector<T>& values, std::size_t, const char* /*meaning*/) {
+        line(key, values.empty() ? "[]" : "");
+        indent_ += 4;
+        for (T& value : values) {
+            item_ = true;
+            describe(*this, value);
+        }
+        indent_ -= 4;
+    }
+
+    template <class T>
+    void named(const char* key, std::vector<T>& values, const char* meaning) {
+        line(key, "");
+        indent_ += 2;
+        for (T& value : values)
+            section(quoted_text(value.name), value, meaning);
+        indent_ -= 2;
+    }
+
+    template <class... T>
+    void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) const {}
+
+    const SonarKeys& one_of(const char* key, const SonarConfig& value, const char* /*meaning*/) {
+        const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
+        line(key, keys->name);
+        return *keys;
+    }
+
+    void require(bool, std::initializer_list<const char*>, const char*) const {}
+
+  private:
+    void line(std::string_view key, std::string_view value) {
+        yaml_.append(item_ ? indent_ - 2 : indent_, ' ');
+        if (item_) yaml_ += "- ";
+        item_ = false;
+        yaml_.append(key).append(":");
+        if (!value.empty()) yaml_.append(" ").append(value);
+        yaml_ += '\n';
+    }
+
+    SonarKeyTable sonars_;
+    std::string yaml_;
+    std::size_t indent_ = 0;
+    bool item_ = false;  ///< the next line begins an item of a list
+};
+
+}  // namespace
 
 std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
     Mission copy = mission;  // describe() takes no const mission

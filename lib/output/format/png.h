@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/file.h"
 #include "core/rgb.h"
 #include "output/format/deflate.h"
 

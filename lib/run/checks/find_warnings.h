@@ -21,10 +21,6 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
 /// and the keys of sonars.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
-/// Warnings about the keys of sonars: an azimuth as if in radians, and pings that are too early for
-/// the sound of the ping before.
-std::vector<Warning> settings_warnings(const Mission& mission, const Assembly& assembly);
-
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/in_parallel.h"
-#include "core/short_text.h"
-#include "simulate/assembly/engine_at.h"
+#include "core/text.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/assembly/sample_pings.h"
 #include "simulate/reference/energy_reference.h"
 #include "simulate/sonar/sonar_at_pose.h"

@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "input/scene/copies.h"
 #include "run/checks/directions.h"
-#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/assembly/sample_pings.h"
 #include "simulate/sonar/measured.h"
 #include "simulate/sonar/sonar_at_pose.h"

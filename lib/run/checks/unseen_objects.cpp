@@ -6,7 +6,7 @@
 #include "core/units.h"
 #include "input/scene/copies.h"
 #include "run/checks/find_warnings.h"
-#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/visibility/angles.h"

@@ -9,7 +9,6 @@
 #include <sstream>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"

@@ -12,7 +12,7 @@
 #include "run/preview/drawing.h"
 #include "run/preview/scene_views.h"
 #include "run/preview/sonar_panel.h"
-#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar_at_pose.h"

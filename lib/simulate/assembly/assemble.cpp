@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/named_at.h"
 #include "core/text.h"
 #include "input/mission/files.h"
 #include "input/scene/gltf/load.h"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/assembly/sample_pings.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar_at_pose.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/named_at.h"
 #include "core/text.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/maps/ground_maps.h"

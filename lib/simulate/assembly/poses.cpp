@@ -86,6 +86,12 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
     return poses;
 }
 
+std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
+                                                  std::span<const Trajectory> motions, double t_s) {
+    if (!motions.empty()) return engine.at(poses_at(motions, t_s));
+    return {std::shared_ptr<const VisibilityEngine>(), &engine};  // owns nothing
+}
+
 Trajectory poses_of(const TrajectoryConfig& config) {
     return std::visit([](const auto& form) { return form_of(form); }, config);
 }

@@ -1,16 +1,23 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "input/mission/mission.h"
 #include "input/scene/placing/bottom.h"
 #include "input/trajectory/trajectory.h"
+#include "simulate/visibility/engine.h"
 
 namespace sonarsim {
 
 /// The poses of moving bodies at a time of their trajectories.
 std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
+
+/// The engine for a ping at a time of the trajectory, with the scene's bodies at their poses then.
+/// It must not outlive `engine`.
+std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
+                                                  std::span<const Trajectory> motions, double t_s);
 
 /// The poses of a trajectory. Throws InputError for errors in its file or numbers.
 Trajectory poses_of(const TrajectoryConfig& config);

@@ -1,6 +1,6 @@
 #include "simulate/assembly/render_at_pose.h"
 
-#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/poses.h"
 
 namespace sonarsim {
 

@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "core/error.h"
-#include "core/named_at.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "input/scene/gltf/surface_of.h"

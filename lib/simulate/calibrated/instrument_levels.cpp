@@ -1,8 +1,8 @@
 #include "simulate/calibrated/instrument_levels.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "simulate/calibrated/ambient_noise.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/example_bottoms.h"
@@ -23,6 +23,24 @@ constexpr double max_share_of_noise = 2.0 / 3.0;
 // echosounder little is stronger than the bottom.
 constexpr double max_headroom_of_sand_db = 37.0;
 constexpr double max_headroom_below_db = 35.0;
+
+// The noise of the sea, as the spectrum of the pressure in dB re 1 uPa^2/Hz. Shipping and
+// turbulence matter only below 1 kHz and are left out.
+
+/// Thermal noise: R. H. Mellen, "The thermal-noise limit in the detection of underwater acoustic
+/// signals", J. Acoust. Soc. Am. 24 (1952), 478: -15 + 20 log f, f in kHz.
+double thermal_noise_db(double frequency_hz) {
+    return -15.0 + 2.0 * db_of_power(1e-3 * frequency_hz);
+}
+
+/// Noise of the wind at the surface: the fit of R. F. W. Coates, "Underwater Acoustic Systems",
+/// Macmillan 1990, to the curves of G. M. Wenz, J. Acoust. Soc. Am. 34 (1962), 1936:
+/// 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), f in kHz.
+double wind_noise_db(double frequency_hz, double wind_m_s) {
+    const double f_khz = 1e-3 * frequency_hz;
+    return 50.0 + 7.5 * std::sqrt(wind_m_s) + 2.0 * db_of_power(f_khz) -
+           4.0 * db_of_power(f_khz + 0.4);
+}
 
 /// The decibels from a share of the largest value of raw/ to that value.
 double headroom_db(const ReceiverConfig& receiver, double share) {

@@ -4,19 +4,83 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "input/scene/objects.h"
 #include "simulate/calibrated/kind_echoes.h"
-#include "simulate/calibrated/near_objects.h"
 #include "simulate/calibrated/piece_strengths.h"
 #include "simulate/calibrated/specular_echoes.h"
 #include "simulate/trace/arrivals.h"
+#include "simulate/visibility/engine.h"
 
 namespace sonarsim {
 
 namespace {
+
+constexpr int cells = 512;  // y / r is divided into these
+
+/// The cells of y / r that a sample may reach, and its ranges.
+struct Reach {
+    int first_cell, last_cell;
+    float near_m, far_m;
+};
+
+int cell_of(float sine) {
+    return std::clamp(static_cast<int>(0.5F * cells * (sine + 1.0F)), 0, cells - 1);
+}
+
+/// A point within h of one at the range r lies within the angle asin(h / r) <= h / (r - h) of it,
+/// and so does its y / r. A quarter of a cell more makes up for rounding.
+Reach reach_of(const Sample& sample) {
+    const Arrival at = arrival_of(sample.position);
+    const float r = at.range_m;
+    // At least the sum of the lengths of its half edges.
+    const float h = std::sqrt(2.0F * (sample.edge_u.squaredNorm() + sample.edge_v.squaredNorm()));
+    const float sine = at.direction.y();
+    const float half_sine = (h < r ? std::min(h / (r - h), 2.0F) : 2.0F) + 0.5F / cells;
+    return {cell_of(sine - half_sine), cell_of(sine + half_sine), r - h, r + h};
+}
+
+/// The directions and ranges at which a line array may receive objects that are no background, or
+/// lose surface to their shadows: the cones that their visible samples reach, from a little before
+/// them to the end of the range.
+class NearObjects {
+  public:
+    explicit NearObjects(const SceneObjects& objects) : objects_(objects) {}
+
+    /// Adds the objects among some samples, in the sensor's frame.
+    void add(std::span<const Sample> samples) {
+        // A piece in a shadow covers at most a tenth of its range to either side (sight_lines.cpp).
+        constexpr float before = 0.9F;
+        for (const Sample& sample : samples) {
+            if (objects_.is_background(objects_.object_of(sample.instance))) continue;
+            const Reach reach = reach_of(sample);
+            for (int cell = reach.first_cell; cell <= reach.last_cell; ++cell)
+                from_m_[cell] = std::min(from_m_[cell], before * reach.near_m);
+        }
+    }
+
+    /// The samples that reach these cones and ranges.
+    std::vector<Sample> among(std::span<const Sample> samples) const {
+        std::vector<Sample> out;
+        std::ranges::copy_if(samples, std::back_inserter(out), [&](const Sample& sample) {
+            const Reach reach = reach_of(sample);
+            return std::any_of(&from_m_[reach.first_cell], &from_m_[reach.last_cell] + 1,
+                               [&](float from_m) { return from_m < reach.far_m; });
+        });
+        return out;
+    }
+
+  private:
+    const SceneObjects& objects_;
+    /// The least range, by cell of y / r; infinite: no object.
+    std::vector<float> from_m_ = std::vector(cells, std::numeric_limits<float>::infinity());
+};
 
 // Depth of a patch of labels: its echo is spread over the bins. With 8 bins, boxes and areas are as
 // near to those of half a bin as with 2.
@@ -159,10 +223,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     const std::vector<SpecularPath> paths = specular_paths(traced, scene, view.shape);
     const SamplesByKind samples(traced.samples.items, true);
     SurfaceEchoFinder finder(*this, traced, scene, view.shape, request.patches, use);
-    const bool is_local = request.objects && !request.patches && paths.empty() &&
-                          beams->cones.exist() && samples.of(SampleKind::particle).empty();
     std::optional<NearObjects> near_objects;
-    if (is_local) {
+    if (request.objects && !request.patches && paths.empty() && beams->cones.exist() &&
+        samples.of(SampleKind::particle).empty()) {
         near_objects.emplace(*request.objects);
         for (const KindOfSample& kind : kinds_of_samples) {
             if (kind.is_surface) near_objects->add(samples.of(kind.kind));

@@ -4,7 +4,7 @@
 #include <list>
 #include <optional>
 
-#include "core/named_at.h"
+#include "core/error.h"
 #include "input/scene/gltf/file.h"
 #include "input/scene/heightmap/height_model.h"
 #include "input/scene/meshes/read_mesh.h"
