@@ -6,8 +6,8 @@
 
 namespace sonarsim {
 
-/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a hash of
-/// the contents of the files that a mission names.
+/// 32 hexadecimal digits that differ when a file that the mission names, the scene's surface or the
+/// poses differ.
 std::string inputs_hash(const Assembly& assembly);
 
 }  // namespace sonarsim
