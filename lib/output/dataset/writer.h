@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -115,19 +114,6 @@ inline std::string record_bytes(const PingNumbers& numbers) {
     return std::visit([](const auto& values) { return record_bytes(values); }, numbers.values);
 }
 
-/// The bytes of a ping's record.
-struct SampleRecord {
-    std::uint32_t pose;
-    std::string bytes;
-
-    template <class T>
-    std::vector<T> values() const {
-        std::vector<T> out(bytes.size() / sizeof(T));
-        std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
-        return out;
-    }
-};
-
 /// One output format of one sensor. Its functions may be called by any number of threads at a time,
 /// and the context must outlive it. A resumed run finds the finished pings by the journal, which
 /// has the size of each file and the hash of each record. It makes products again unless all of
@@ -143,9 +129,6 @@ struct Writer {
     std::function<PingNumbers(const FinishedPing&)> numbers = {};
     /// Makes the products in a folder, in memory that does not grow with the number of pings.
     std::function<void(const RecordFile&, const std::filesystem::path&)> write_products = {};
-    /// The bytes that the products would have if all pings were like these, which are one or more;
-    /// null if the products are small.
-    std::function<double(std::span<const SampleRecord>)> product_bytes = {};
     /// Adds to the sensor's block in dataset.json.
     std::function<void(nlohmann::ordered_json& sensor)> describe = {};
 };
@@ -159,6 +142,9 @@ using Writers = std::vector<Writer>;
 
 /// The writers of each sensor. InputError for the label `fan` without a fan.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
+
+/// The writers of one of them.
+Writers make_writers(const WriterContext& context);
 
 /// The writers of a sensor's raw values and labels alone; empty if the mission asks for neither.
 Writers make_array_writers(const WriterContext& context);

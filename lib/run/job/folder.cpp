@@ -8,7 +8,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/no_links.h"
@@ -117,22 +116,25 @@ void tidy(const fs::path& folder, const Json& description) {
     }
 }
 
+std::string read_mission_text(const fs::path& dataset) {
+    constexpr std::size_t largest = std::size_t{1} << 26;
+    return read_file(dataset / mission_name, largest);
+}
+
 std::string mission_differences(const fs::path& dataset, const std::string& mission) {
-    constexpr std::size_t largest_mission = std::size_t{1} << 26;
     try {
-        return differing_keys(read_file(dataset / mission_name, largest_mission), mission);
+        return differing_keys(read_mission_text(dataset), mission);
     } catch (const InputError&) {
         return "";  // a run that was killed at its beginning has not written it yet
     }
 }
 
 DatasetFile require_part(const fs::path& folder, const fs::path& first) {
-    constexpr std::size_t largest_mission = std::size_t{1} << 26;
     DatasetFile dataset = require_dataset(folder);
     std::string difference = difference_between(dataset.json, require_dataset(first).json);
     if (difference.empty()) return dataset;
     if (difference == another_mission)
-        difference += mission_differences(folder, read_file(first / mission_name, largest_mission));
+        difference += mission_differences(folder, read_mission_text(first));
     throw InputError({folder.string()}, "holds a dataset " + difference + ", seen from " +
                                             first.string() +
                                             "; only parts of one mission become one dataset");

@@ -32,6 +32,9 @@ CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
 /// Their size on the disk, bytes.
 double bytes_of(const CommonFiles& files);
 
+/// The mission.resolved.yaml of a dataset. InputError as read_file().
+std::string read_mission_text(const std::filesystem::path& dataset);
+
 /// The keys in which the mission of a dataset differs from the text `mission`, for messages.
 std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
 

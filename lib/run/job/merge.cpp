@@ -72,10 +72,9 @@ class DatasetMerge {
   public:
     DatasetMerge(const std::vector<fs::path>& parts, const fs::path& out)
         : parts_(parts), out_(out), dataset_(require_dataset(parts.at(0))) {
-        constexpr std::size_t largest_mission = std::size_t{1} << 26;
         common_.description = dataset_.json;
         common_.description["complete"] = false;
-        common_.mission = read_file(parts[0] / mission_name, largest_mission);
+        common_.mission = read_mission_text(parts[0]);
         for (const fs::path& part : parts)
             require_part(part, parts[0]);
         inspect_folder(out, common_.description, common_.mission);

@@ -1,11 +1,15 @@
 #include "run/job/ping_cost.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
 #include <utility>
 #include <variant>
 
 #include "core/clock.h"
+#include "core/file.h"
 #include "output/dataset/encode_ping.h"
 #include "simulate/assembly/engines.h"
 #include "simulate/assembly/sample_pings.h"
@@ -19,6 +23,9 @@ namespace {
 constexpr std::size_t measured_images = 2;
 constexpr std::size_t measured_records = 8;
 
+/// The bytes of some pings by a writer.
+using Records = std::vector<std::string>;
+
 /// The bytes of a ping in its own files and records, in journal.txt and in SHA256SUMS.
 double bytes_of_ping(const Writers& writers, const std::vector<std::string>& parts) {
     constexpr double line = 25.0;  // in the journal, without its fields
@@ -28,6 +35,45 @@ double bytes_of_ping(const Writers& writers, const std::vector<std::string>& par
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const bool is_file = std::holds_alternative<PingFile>(writers[k].per_ping);
         bytes += static_cast<double>(parts[k].size()) + (is_file ? file_fields : record_field);
+    }
+    return bytes;
+}
+
+double ratio(std::size_t a, std::size_t b) {
+    return static_cast<double>(a) / static_cast<double>(b);
+}
+
+/// The bytes of the products of all pings of a sonar: those of some pings, whose records are these
+/// in turn, made in a folder that goes again. `all`: the writers of all pings. `records`: by writer
+/// and ping.
+double product_bytes(const WriterContext& context, const Writers& all,
+                     const std::vector<Records>& records) {
+    if (std::ranges::none_of(all, [](const Writer& one) { return bool(one.write_products); }))
+        return 0.0;
+    constexpr std::size_t max_pings = 512;
+    const WriterContext some{context.mission, context.assembly, context.sensor,
+                             std::min(context.pings, max_pings)};
+    const Writers writers = make_writers(some);
+    const ScratchFolder folder;
+    std::vector<std::unique_ptr<RecordFile>> files(writers.size());
+    double bytes = 0.0;
+    for (std::size_t k = 0; k < writers.size(); ++k) {
+        const auto* record = std::get_if<PingRecord>(&writers[k].per_ping);
+        if (record == nullptr) continue;
+        files[k] =
+            std::make_unique<RecordFile>(folder.path() / record->file, record->format, some.pings);
+        for (std::size_t ping = 0; ping < some.pings; ++ping)
+            files[k]->write(ping, std::as_bytes(std::span(records[k][ping % records[k].size()])));
+    }
+    for (std::size_t k = 0; k < writers.size(); ++k) {
+        if (!writers[k].write_products) continue;
+        writers[k].write_products(*files[k], folder.path());
+        // A sweep has files of its own; other files grow with the pings.
+        const std::size_t made = writers[k].products.size();
+        const double times = all[k].products.size() > made ? ratio(all[k].products.size(), made)
+                                                           : ratio(context.pings, some.pings);
+        for (const std::string& name : writers[k].products)
+            bytes += times * static_cast<double>(std::filesystem::file_size(folder.path() / name));
     }
     return bytes;
 }
@@ -47,29 +93,26 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             kind_of(sonar.config.kind).has_images ? measured_images : measured_records;
         const std::vector<std::uint32_t> poses =
             sample_pings(assembly.trajectory.size(), sonar.config.every, max_pings);
-        std::vector<std::vector<SampleRecord>> samples(writers[i].size());
+        std::vector<Records> records(writers[i].size());
         const auto measure = [&](std::uint32_t pose) {
             watch.lap();
             WrittenPing written = encode_ping(
                 assembly, writers[i], plan, render_at_pose(mission, assembly, *engine, {pose, i}));
             const PingCost cost{watch.lap(), bytes_of_ping(writers[i], written.parts)};
-            for (std::size_t k = 0; k < samples.size(); ++k)
-                samples[k].push_back({pose, std::move(written.parts[k])});
+            for (std::size_t k = 0; k < records.size(); ++k)
+                records[k].push_back(std::move(written.parts[k]));
             return cost;
         };
         const double first_s = measure(poses.front()).seconds;
-        std::ranges::for_each(samples, [](auto& records) { records.clear(); });
+        std::ranges::for_each(records, [](Records& all) { all.clear(); });
         for (const std::uint32_t pose : poses) {
             const PingCost cost = measure(pose);
             costs[i].seconds += cost.seconds / static_cast<double>(poses.size());
             costs[i].bytes += cost.bytes / static_cast<double>(poses.size());
         }
-        const double pings =
-            static_cast<double>(count_pings(mission, assembly.trajectory.size())[i]);
-        for (std::size_t k = 0; k < samples.size(); ++k) {
-            if (writers[i][k].product_bytes)
-                costs[i].bytes += writers[i][k].product_bytes(samples[k]) / pings;
-        }
+        const std::size_t pings = count_pings(mission, assembly.trajectory.size())[i];
+        costs[i].bytes += product_bytes({mission, assembly, i, pings}, writers[i], records) /
+                          static_cast<double>(pings);
         set_up_s += std::max(0.0, first_s - costs[i].seconds);
     }
     return costs;

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <memory>
 
+#include "output/dataset/json.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/fan.h"
 #include "simulate/product/gain.h"
 
-// The files of every ping of imaging and profiling sonars.
+// The files of every ping: of imaging and profiling sonars, and the metadata of all.
 
 namespace sonarsim {
 
@@ -89,6 +90,14 @@ std::optional<Writer> make_stages_writer(const WriterContext& context) {
     };
     return Writer{.per_ping = PingFile{"stages", ".png", PingArray::none, {}, "stages"},
                   .encode = encode};
+}
+
+/// meta/NNNNNN.json: time, poses, seed, counts and what was measured.
+std::optional<Writer> make_meta_writer(const WriterContext& context) {
+    return Writer{.per_ping = PingFile{"meta", ".json"},
+                  .encode = [context](const FinishedPing& finished) {
+                      return json_text(describe_ping(context.mission, context.assembly, finished));
+                  }};
 }
 
 }  // namespace sonarsim

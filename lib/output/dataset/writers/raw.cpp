@@ -72,24 +72,6 @@ void write_raw_pictures(const WriterContext& context, const RecordFile& records,
     image.finish();
 }
 
-/// The bytes of the pictures of raw.npy, whose pings are rows here.
-template <class T>
-double raw_picture_bytes(const WriterContext& context, std::span<const SampleRecord> samples) {
-    constexpr PixelKind kind = sizeof(T) == 1 ? PixelKind::grey8 : PixelKind::grey16;
-    const RecordShape& shape = context.kind().record;
-    const SonarConfig& config = context.sonar().config;
-    PngEncoder image(static_cast<int>(shape.values(config)), static_cast<int>(samples.size()), kind,
-                     PngFilter::none);
-    for (const SampleRecord& sample : samples)
-        image.row(std::span<const T>(sample.values<T>()));
-    const double rows =
-        shape.pictures == RecordPictures::sweeps
-            ? static_cast<double>(scan_sweeps(config, context.pings)) * scan_steps(config)
-            : picture_rows(context.pings);
-    return static_cast<double>(image.take(true).size()) * rows /
-           static_cast<double>(samples.size());
-}
-
 }  // namespace
 
 /// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
@@ -131,10 +113,6 @@ std::optional<Writer> make_raw_records_writer(const WriterContext& context) {
     writer.write_products = [=](const RecordFile& records, const std::filesystem::path& folder) {
         bytes == 1 ? write_raw_pictures<std::uint8_t>(context, records, folder)
                    : write_raw_pictures<std::uint16_t>(context, records, folder);
-    };
-    writer.product_bytes = [=](std::span<const SampleRecord> samples) {
-        return bytes == 1 ? raw_picture_bytes<std::uint8_t>(context, samples)
-                          : raw_picture_bytes<std::uint16_t>(context, samples);
     };
     return writer;
 }

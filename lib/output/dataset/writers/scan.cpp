@@ -32,21 +32,6 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
         });
 }
 
-/// The bytes of the displays, in each of which the samples follow each other again and again.
-double display_bytes(const WriterContext& context, const FanMap& map,
-                     std::span<const SampleRecord> samples) {
-    const SonarConfig& config = context.sonar().config;
-    ScanDisplay display(context.sonar());
-    for (std::size_t step = 0; step < static_cast<std::size_t>(scan_steps(config)); ++step)
-        display.show(step, samples[step % samples.size()].values<float>());
-    const Ping& image = display.image();
-    const std::size_t bytes =
-        npy_bytes(image.intensity, image.range_bins, image.beams).size() +
-        png_bytes(render_fan(map, image, context.full_scale()), map.frame.width, map.frame.height)
-            .size();
-    return static_cast<double>(bytes * scan_sweeps(config, context.pings));
-}
-
 }  // namespace
 
 /// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
@@ -82,10 +67,6 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
                   .write_products =
                       [=](const RecordFile& records, const std::filesystem::path& folder) {
                           write_displays(context, *map, records, folder);
-                      },
-                  .product_bytes =
-                      [=](std::span<const SampleRecord> samples) {
-                          return display_bytes(context, *map, samples);
                       },
                   .describe = describe};
 }

@@ -6,7 +6,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "core/file.h"
 #include "output/dataset/json.h"
 #include "output/dataset/map_place.h"
@@ -77,27 +76,6 @@ nlohmann::ordered_json georeference(const Bathymetry& grid, const MapPlace& plac
 std::string csv_line(const RecordedSounding& s, double time_s) {
     return fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose, time_s, s.beam,
                        s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality);
-}
-
-/// The bytes of a sounding in soundings.ply.
-constexpr std::size_t ply_bytes = 3 * sizeof(double) + sizeof(float);
-
-/// The bytes of the tables of soundings; the map is much smaller.
-double table_bytes(const WriterContext& context, std::span<const SampleRecord> samples) {
-    std::size_t bytes = 0;
-    for (const SampleRecord& sample : samples) {
-        const std::vector<double> fields = sample.values<double>();
-        for (std::size_t k = 0; k + fields_of_sounding <= fields.size(); k += fields_of_sounding) {
-            const double* const f = fields.data() + k;
-            if (std::isnan(f[0])) continue;
-            const RecordedSounding sounding{
-                sample.pose, k / fields_of_sounding, f[0], {f[1], f[2], f[3]}, f[4]};
-            bytes +=
-                ply_bytes + csv_line(sounding, context.assembly.trajectory[sample.pose].t_s).size();
-        }
-    }
-    return static_cast<double>(bytes) * static_cast<double>(context.pings) /
-           static_cast<double>(samples.size());
 }
 
 void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
@@ -176,23 +154,20 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     record.file = "soundings.npy";
     record.format = {"<f8", {context.pings, beams, fields_of_sounding}};
     record.axes = {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
-    return Writer{
-        .per_ping = std::move(record),
-        .products = {"soundings.csv", "soundings.ply", "bathymetry.tif", "bathymetry.json",
-                     "bathymetry.png"},
-        .encode =
-            [=](const FinishedPing& finished) {
-                return record_bytes(sounding_fields(context, finished));
-            },
-        .write_products = write_products,
-        .product_bytes =
-            [=](std::span<const SampleRecord> samples) { return table_bytes(context, samples); },
-        .describe =
-            [&config](nlohmann::ordered_json& sensor) {
-                sensor["pictures"].push_back({{"title", "bathymetry"},
-                                              {"file", config.name + "/bathymetry.png"},
-                                              {"per", "sensor"}});
-            }};
+    return Writer{.per_ping = std::move(record),
+                  .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
+                               "bathymetry.json", "bathymetry.png"},
+                  .encode =
+                      [=](const FinishedPing& finished) {
+                          return record_bytes(sounding_fields(context, finished));
+                      },
+                  .write_products = write_products,
+                  .describe =
+                      [&config](nlohmann::ordered_json& sensor) {
+                          sensor["pictures"].push_back({{"title", "bathymetry"},
+                                                        {"file", config.name + "/bathymetry.png"},
+                                                        {"per", "sensor"}});
+                      }};
 }
 
 }  // namespace sonarsim

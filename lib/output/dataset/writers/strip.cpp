@@ -12,7 +12,6 @@ namespace sonarsim {
 std::vector<std::string> swath_products(const WriterContext& context);
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
                        const std::filesystem::path& folder);
-double swath_file_bytes(const WriterContext& context, std::span<const SampleRecord> samples);
 
 namespace {
 
@@ -58,33 +57,6 @@ void write_pictures(const WriterContext& context, const RecordFile& file,
     view.finish();
 }
 
-/// The bytes of both pictures; their rows are those of the samples.
-double picture_bytes(const WriterContext& context, std::span<const SampleRecord> samples) {
-    const RecordShape& shape = context.kind().record;
-    const StripFrame frame = frame_of(context);
-    const int across = shape.upright ? frame.ping_px : frame.bin_px;
-    const int down = shape.upright ? frame.bin_px : frame.ping_px;
-    const auto values = static_cast<int>(shape.values(context.sonar().config));
-    const auto rows = static_cast<int>(samples.size());
-    Gain gain;
-    for (const SampleRecord& sample : samples)
-        gain.add(sample.values<float>());
-    constexpr int nadir_px = 1;
-    std::vector<Rgb> pixels(static_cast<std::size_t>(values) * across + nadir_px);
-    PngEncoder plain(values, rows, PixelKind::grey16, PngFilter::none);
-    PngEncoder view(static_cast<int>(pixels.size()), rows * down, PixelKind::rgb8, PngFilter::left);
-    for (const SampleRecord& sample : samples) {
-        const std::vector<float> row = sample.values<float>();
-        const std::vector<std::uint16_t> grey = grey_16(row, context.full_scale());
-        plain.row(std::span(grey));
-        shape.style.row(row, gain.white(), frame, pixels);
-        for (int k = 0; k < down; ++k)
-            view.row(std::span<const Rgb>(pixels));
-    }
-    return static_cast<double>(plain.take(true).size() + view.take(true).size()) *
-           picture_rows(context.pings) / rows;
-}
-
 void describe_strip(const WriterContext& context, nlohmann::ordered_json& sensor) {
     const RecordShape& shape = context.kind().record;
     if (shape.describe) shape.describe(context.sonar(), sensor);
@@ -124,11 +96,6 @@ std::optional<Writer> make_strip_writer(const WriterContext& context) {
             [context](const RecordFile& file, const std::filesystem::path& folder) {
                 write_pictures(context, file, folder);
                 if (context.kind().record.two_sides) write_swath_files(context, file, folder);
-            },
-        .product_bytes =
-            [context](std::span<const SampleRecord> samples) {
-                return picture_bytes(context, samples) +
-                       (context.kind().record.two_sides ? swath_file_bytes(context, samples) : 0.0);
             },
         .describe = [context](nlohmann::ordered_json& s) { describe_strip(context, s); }};
 }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "core/atomic_file.h"
 #include "core/file.h"
 #include "core/pose.h"
 #include "core/units.h"
@@ -14,7 +13,6 @@
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "output/format/xtf.h"
-#include "simulate/assembly/sample_pings.h"
 #include "simulate/product/gain.h"
 #include "simulate/product/mosaic.h"
 #include "simulate/product/sidescan_row.h"
@@ -99,22 +97,9 @@ double mosaic_cell_m(const WriterContext& context) {
                   trajectory[k - 1].T_world_vehicle.translation)
                      .norm();
     }
-    const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, context.pings));
+    const std::size_t pings = count_pings(context.mission, trajectory.size()).at(context.sensor);
+    const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, pings));
     return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
-}
-
-/// The bytes of a mosaic with the swath of one of the pings at every pose.
-double mosaic_bytes(const WriterContext& context, const SampleRecord& sample) {
-    constexpr std::size_t max_poses = 1000;
-    const std::vector<float> row = sample.values<float>();
-    SoundingBounds bounds;
-    for (const std::uint32_t pose : sample_pings(context.assembly.trajectory.size(),
-                                                 context.sonar().config.every, max_poses)) {
-        const auto swath = swath_of(context.sonar(), pose_of_sensor(context, pose), row);
-        if (swath) add_bounds(*swath, bounds);
-    }
-    const Bathymetry map = make_bathymetry(bounds, mosaic_cell_m(context));
-    return static_cast<double>(sizeof(float)) * map.rows * map.columns;
 }
 
 void write_mosaic(const WriterContext& context, const RecordFile& rows,
@@ -156,21 +141,6 @@ std::vector<std::string> swath_products(const WriterContext& context) {
     if (context.mission.output.mosaic)
         products.insert(products.end(), {"mosaic.tif", "mosaic.json"});
     return products;
-}
-
-/// The bytes of these files if all pings were like the samples.
-double swath_file_bytes(const WriterContext& context, std::span<const SampleRecord> samples) {
-    double bytes = 0.0;
-    if (context.mission.output.xtf) {
-        const std::vector<float> row = samples.front().values<float>();
-        bytes += static_cast<double>(xtf_record({}, grey_16(row, context.full_scale())).size()) *
-                 static_cast<double>(context.pings);
-    }
-    if (context.mission.output.mosaic) {
-        for (const SampleRecord& sample : samples)
-            bytes += mosaic_bytes(context, sample) / static_cast<double>(samples.size());
-    }
-    return bytes;
 }
 
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
