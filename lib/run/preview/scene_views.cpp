@@ -1,5 +1,6 @@
 #include "run/preview/scene_views.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,26 +14,17 @@ namespace sonarsim {
 
 namespace {
 
+using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr Rgb path_colour{255, 255, 255};
 
-struct Box2 {
-    Vector2d low = Vector2d::Constant(1e300);
-    Vector2d high = Vector2d::Constant(-1e300);
-
-    void add(const Vector2d& at) {
-        low = low.cwiseMin(at);
-        high = high.cwiseMax(at);
-    }
-
-    /// Enlarges the area on all sides by a share of its longer side, at least by a metre.
-    Box2 padded(double share) const {
-        const double by = std::max(0.5, share * (high - low).maxCoeff());
-        return {low.array() - by, high.array() + by};
-    }
-};
+/// Enlarges an area on all sides by a share of its longer side, at least by a metre.
+AlignedBox2d padded(const AlignedBox2d& box, double share) {
+    const double by = std::max(0.5, share * box.sizes().maxCoeff());
+    return {box.min().array() - by, box.max().array() + by};
+}
 
 Vector2d flat(const Vector3d& p) {
     return p.head<2>();
@@ -84,22 +76,22 @@ Vector2d heading_of(const Pose& T_world_vehicle) {
 }
 
 /// The area that the plan shows.
-Box2 plan_box(const Moment& moment) {
-    Box2 box;
+AlignedBox2d plan_box(const Moment& moment) {
+    AlignedBox2d box;
     for (const TimedPose& pose : moment.assembly.trajectory)
-        box.add(flat(pose.T_world_vehicle.translation));
+        box.extend(flat(pose.T_world_vehicle.translation));
     for (const BeamOutline& beam : moment.beams) {
         for (const Vector3d& end : beam.ends)
-            box.add(flat(end));
+            box.extend(flat(end));
     }
-    box = box.padded(0.1);
+    box = padded(box, 0.1);
     // The plan shows all of the scene if it is not much larger.
     const Scene& scene = moment.assembly.scene;
     const Vector2d scene_low = flat(scene.bounds_min);
     const Vector2d scene_high = flat(scene.bounds_max);
-    if ((scene_high - scene_low).maxCoeff() < 2.0 * (box.high - box.low).maxCoeff()) {
-        box.add(scene_low);
-        box.add(scene_high);
+    if ((scene_high - scene_low).maxCoeff() < 2.0 * box.sizes().maxCoeff()) {
+        box.extend(scene_low);
+        box.extend(scene_high);
     }
     return box;
 }
@@ -175,8 +167,8 @@ std::vector<float> heights_below(const VisibilityEngine& engine, const Vector3d&
 
 Picture draw_plan(const Moment& moment, int width, int height) {
     const Trajectory& trajectory = moment.assembly.trajectory;
-    const Box2 box = plan_box(moment);
-    const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
+    const AlignedBox2d box = plan_box(moment);
+    const PlaneFrame frame = plane_frame(width, height, box.min(), box.max());
     Picture tile(width, height, backdrop);
     const Pose& now = trajectory[moment.pose].T_world_vehicle;
     draw_heights(tile, frame, heights_below(moment.engine, now.translation, frame));

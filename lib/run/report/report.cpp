@@ -90,8 +90,11 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
     const auto most = std::ranges::max_element(references, {}, &Reference::noise);
-    report.references.push_back({sonar.config.name, mean_over(references, &Reference::noise),
-                                 most->noise, mean_over(references, &Reference::rays_per_bin)});
+    report.references.push_back(
+        {{"sensor", sonar.config.name},
+         {"noise_mean", mean_over(references, &Reference::noise)},
+         {"noise_max", most->noise},
+         {"rays_per_bin_mean", mean_over(references, &Reference::rays_per_bin)}});
     return references;
 }
 

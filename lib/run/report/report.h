@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,23 +56,6 @@ struct MultipathRow {
     double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
 };
 
-/// The quality of a sonar's reference images.
-struct ReferenceQuality {
-    std::string sensor;
-    double noise = 0.0;         ///< mean of Reference::noise over the poses
-    double max_noise = 0.0;     ///< the largest of them
-    double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
-};
-
-/// The images that a mission makes, with labels and files.
-struct JobRow {
-    std::uint64_t images = 0;   ///< measured
-    double images_per_s = 0.0;  ///< all threads, without the set-up
-    /// One thread: the scene and its engine, once; and the stages of an image.
-    double ms_set_up = 0.0, ms_trace = 0.0, ms_form = 0.0, ms_facts = 0.0, ms_files = 0.0;
-    double times_rays = 0.0;  ///< an image as a multiple of ReportRow::ms_rays
-};
-
 struct ReportOptions {
     int poses = 8;
     int rounds = 5;
@@ -87,9 +71,10 @@ struct Report {
     int threads = 0;
     double load = 0.0;  ///< load average of the machine at the start
     std::vector<ReportRow> rows;
-    std::vector<ReferenceQuality> references;  ///< one per sonar
-    std::vector<MultipathRow> multipath;       ///< only for sonars that have it
-    JobRow job;
+    /// The noise of the reference images of each sonar, and the rays that echoed per occupied bin.
+    nlohmann::ordered_json references = nlohmann::ordered_json::array();
+    std::vector<MultipathRow> multipath;  ///< only for sonars that have it
+    nlohmann::ordered_json job;           ///< measure_job()
 };
 
 /// Reports progress.
@@ -112,9 +97,11 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
                                             const ReportOptions& options,
                                             const ReportProgress& progress);
 
-/// Renders some pings of a mission into a temporary folder. `ms_rays` is the time of the rays that
-/// an image is compared with.
-JobRow measure_job(const Mission& mission, double ms_rays, const ReportOptions& options);
+/// Renders some pings of a mission into a temporary folder: the images per second on all threads
+/// and, on one thread, the set-up and the stages of an image. `ms_rays` is the time of the rays
+/// that an image is compared with.
+nlohmann::ordered_json measure_job(const Mission& mission, double ms_rays,
+                                   const ReportOptions& options);
 
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);

@@ -44,20 +44,6 @@ Json json_of(const MultipathRow& row) {
             {"times_without", row.times_without}};
 }
 
-Json json_of(const JobRow& row) {
-    return {{"images", row.images},       {"images_per_s", row.images_per_s},
-            {"ms_set_up", row.ms_set_up}, {"ms_trace", row.ms_trace},
-            {"ms_form", row.ms_form},     {"ms_facts", row.ms_facts},
-            {"ms_files", row.ms_files},   {"times_131k_rays", row.times_rays}};
-}
-
-Json json_of(const ReferenceQuality& reference) {
-    return {{"sensor", reference.sensor},
-            {"noise_mean", reference.noise},
-            {"noise_max", reference.max_noise},
-            {"rays_per_bin_mean", reference.rays_per_bin}};
-}
-
 template <class Row>
 Json list_of(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -73,9 +59,9 @@ Json json_of(const Report& report) {
               {"threads", report.threads},
               {"load", report.load}};
     json["rows"] = list_of(report.rows);
-    json["reference"] = list_of(report.references);
+    json["reference"] = report.references;
     json["multipath_rows"] = list_of(report.multipath);
-    json["job"] = json_of(report.job);
+    json["job"] = report.job;
     return json;
 }
 
@@ -84,6 +70,10 @@ std::string short_number(double x) {
     if (!(x >= 5e-5)) return "0";
     const int digits = 2 - static_cast<int>(std::floor(std::log10(x)));
     return fmt::format("{:.{}f}", x, std::clamp(digits, 0, 4));
+}
+
+double number(const Json& value) {
+    return value.get<double>();
 }
 
 /// A column of a table: a key of the rows and its title. Titles that end in % are for shares.
@@ -96,10 +86,10 @@ std::string cell_of(const Json& row, const Column& column) {
     const Json& value = row[column.key];
     if (value.is_string()) return value;
     const bool share = column.title.ends_with('%');
-    const std::string number = short_number((share ? 100.0 : 1.0) * value.get<double>());
+    const std::string text = short_number((share ? 100.0 : 1.0) * number(value));
     const bool best = row.value("on_front", false) &&
                       (column.title == "ms per ping" || column.title == "relative L1, %");
-    return best ? "**" + number + "**" : number;
+    return best ? "**" + text + "**" : text;
 }
 
 /// The rows of a sonar as a Markdown table; empty for no rows.
@@ -134,11 +124,13 @@ std::string report_markdown(const Report& report) {
     if (report.load > 0.5)
         text +=
             fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
-    for (const ReferenceQuality& reference : report.references) {
+    for (const Json& reference : report.references) {
+        const Json& sensor = reference["sensor"];
         text += fmt::format("\n{}: the noise of the reference is {} %, at most {} %.\n",
-                            reference.sensor, short_number(100.0 * reference.noise),
-                            short_number(100.0 * reference.max_noise));
-        text += table(json["rows"], reference.sensor,
+                            sensor.get<std::string>(),
+                            short_number(100.0 * number(reference["noise_mean"])),
+                            short_number(100.0 * number(reference["noise_max"])));
+        text += table(json["rows"], sensor,
                       {{"engine", "engine"},
                        {"setting", "setting"},
                        {"ms_per_ping", "ms per ping"},
@@ -149,7 +141,7 @@ std::string report_markdown(const Report& report) {
                        {"goal", "goal"},
                        {"miss_rate", "missed bins, %"},
                        {"samples_per_ping", "samples"}});
-        text += table(json["multipath_rows"], reference.sensor,
+        text += table(json["multipath_rows"], sensor,
                       {{"method", "multipath"},
                        {"epsilon_bins", "epsilon"},
                        {"delta_deg", "delta"},
@@ -160,14 +152,14 @@ std::string report_markdown(const Report& report) {
                        {"ms_per_ping", "ms per ping"},
                        {"times_without", "times the ping without"}});
     }
-    const JobRow& job = report.job;
+    const auto job = [&](const char* key) { return short_number(number(report.job[key])); };
     text += fmt::format(
         "\nThe job makes {} images/s with labels and files on {} threads ({} images). On one "
         "thread an image takes: trace {} ms, form {} ms, facts {} ms, files {} ms; {} x 131k rays "
         "of the first sonar. Set-up: {} ms.\n",
-        short_number(job.images_per_s), report.threads, job.images, short_number(job.ms_trace),
-        short_number(job.ms_form), short_number(job.ms_facts), short_number(job.ms_files),
-        short_number(job.times_rays), short_number(job.ms_set_up));
+        job("images_per_s"), report.threads, report.job["images"].get<std::uint64_t>(),
+        job("ms_trace"), job("ms_form"), job("ms_facts"), job("ms_files"), job("times_131k_rays"),
+        job("ms_set_up"));
     return text;
 }
 

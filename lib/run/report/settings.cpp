@@ -11,30 +11,14 @@ namespace sonarsim {
 
 namespace {
 
-/// Rays, strips or auto by error goal.
-Setting with_goal(EngineKind kind, const char* engine, double goal) {
-    return {.engine = engine,
-            .name = "relative_l1=" + number_text(goal),
+Setting setting_of(EngineKind kind, double goal, const OctreeConfig& octree = {}) {
+    const bool is_octree = kind == EngineKind::octree;
+    return {.engine = std::ranges::find(engine_names, kind, &Choice<EngineKind>::value)->name,
+            .name = is_octree ? "leaf_m=" + number_text(octree.leaf_m)
+                              : "relative_l1=" + number_text(goal),
             .kind = kind,
-            .octree = {},
+            .octree = is_octree ? octree : OctreeConfig{},
             .relative_l1 = goal};
-}
-
-Setting octree_with(double leaf_m, double goal) {
-    return {.engine = "octree",
-            .name = "leaf_m=" + number_text(leaf_m),
-            .kind = EngineKind::octree,
-            .octree = {leaf_m},
-            .relative_l1 = goal};
-}
-
-Setting own_setting(const Mission& mission) {
-    const double goal = mission.accuracy.relative_l1;
-    if (mission.engine == EngineKind::octree) return octree_with(mission.octree.leaf_m, goal);
-    if (mission.engine == EngineKind::rays) return with_goal(EngineKind::rays, "rays", goal);
-    if (mission.engine == EngineKind::automatic)
-        return with_goal(EngineKind::automatic, "auto", goal);
-    return with_goal(EngineKind::strips, "strips", goal);
 }
 
 double finest_bin_m(const Mission& mission) {
@@ -52,18 +36,18 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         quick ? std::vector{0.1, 0.03, 0.01} : std::vector{0.1, 0.03, 0.01, 0.003};
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
+    const double own_goal = mission.accuracy.relative_l1;
     std::vector<Setting> settings;
-    settings.reserve(3 * goals.size() + leaves.size() + 2);
     for (const double goal : goals)
-        settings.push_back(with_goal(EngineKind::rays, "rays", goal));
+        settings.push_back(setting_of(EngineKind::rays, goal));
     for (const double goal : goals)
-        settings.push_back(with_goal(EngineKind::strips, "strips", goal));
+        settings.push_back(setting_of(EngineKind::strips, goal));
     for (const double leaf : leaves) {
         if (leaf >= 0.25 * finest_bin_m(mission))
-            settings.push_back(octree_with(leaf, mission.accuracy.relative_l1));
+            settings.push_back(setting_of(EngineKind::octree, own_goal, {leaf}));
     }
-    settings.push_back(with_goal(EngineKind::automatic, "auto", mission.accuracy.relative_l1));
-    Setting own = own_setting(mission);
+    settings.push_back(setting_of(EngineKind::automatic, own_goal));
+    Setting own = setting_of(mission.engine, own_goal, mission.octree);
     own.current = true;
     std::erase_if(settings, [&](const Setting& setting) {
         return setting.engine == own.engine && setting.name == own.name;

@@ -10,6 +10,20 @@
 
 namespace sonarsim {
 
+namespace {
+
+/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them if
+/// it has fewer.
+std::vector<std::size_t> sample_poses(std::size_t poses, int count) {
+    const std::size_t n = std::min(poses, static_cast<std::size_t>(std::max(count, 1)));
+    std::vector<std::size_t> out(n);
+    for (std::size_t k = 0; k < n; ++k)
+        out[k] = n > 1 ? k * (poses - 1) / (n - 1) : 0;
+    return out;
+}
+
+}  // namespace
+
 double median_of(std::vector<double> values) {
     if (values.empty()) return 0.0;
     std::ranges::sort(values);
@@ -20,14 +34,6 @@ double median_of(std::vector<double> values) {
 double mean_of(const std::vector<double>& values) {
     if (values.empty()) return 0.0;
     return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
-}
-
-std::vector<std::size_t> sample_poses(std::size_t poses, int count) {
-    const std::size_t n = std::min(poses, static_cast<std::size_t>(std::max(count, 1)));
-    std::vector<std::size_t> out(n);
-    for (std::size_t k = 0; k < n; ++k)
-        out[k] = n > 1 ? k * (poses - 1) / (n - 1) : 0;
-    return out;
 }
 
 double thread_seconds_now() {

@@ -18,10 +18,6 @@ namespace sonarsim {
 double median_of(std::vector<double> values);
 double mean_of(const std::vector<double>& values);
 
-/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them if
-/// it has fewer.
-std::vector<std::size_t> sample_poses(std::size_t poses, int count);
-
 /// CPU time of this thread in seconds, which stays comparable on a busy machine.
 double thread_seconds_now();
 
