@@ -16,6 +16,14 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
     command.footer(text);
 }
 
+/// Adds a subcommand to a group of --help.
+inline CLI::App& add_command(CLI::App& app, const char* name, const char* meaning,
+                             const char* group, std::initializer_list<const char*> examples) {
+    CLI::App& command = *app.add_subcommand(name, meaning)->group(group);
+    add_examples(command, examples);
+    return command;
+}
+
 // Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.
 
 void add_new(CLI::App& app, int& exit_code);

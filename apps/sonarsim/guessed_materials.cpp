@@ -1,9 +1,7 @@
 #include "guessed_materials.h"
 
-#include <algorithm>
-#include <cctype>
+#include <regex>
 #include <set>
-#include <utility>
 
 #include "core/csv.h"
 #include "core/error.h"
@@ -20,46 +18,16 @@ constexpr const char* usual_bed = "sand";
 constexpr const char* nameless = "(no material)";  // as load_scene_geometry()
 constexpr std::size_t largest_table = std::size_t{1} << 24;
 
-/// Words of meshes for materials of the table.
-constexpr std::pair<const char*, const char*> synonyms[]{
-    {"aluminum", "aluminium"}, {"cement", "concrete"}, {"plastic", "polyethylene"},
-    {"stone", "rock"},         {"tire", "tyre"},       {"timber", "wood"},
-    {"fabric", "cloth"},       {"fibreglass", "pvc"}};
-
-/// The words of a name in small letters: "HullPaint_2" has hull and paint.
-std::set<std::string> words_of(const std::string& name) {
-    std::set<std::string> words;
-    std::string word;
-    bool was_small = false;
-    for (const char c : name + ' ') {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool letter = std::isalpha(byte) != 0;
-        if (!letter || (was_small && std::isupper(byte) != 0)) {
-            if (!word.empty()) words.insert(word);
-            word.clear();
-        }
-        if (letter) word += static_cast<char>(std::tolower(byte));
-        was_small = std::islower(byte) != 0;
-    }
-    for (const auto& [other, known] : synonyms) {
-        if (words.contains(other)) words.insert(known);
-    }
-    return words;
-}
-
-/// The row of the table that fits a name best; null if none does.
+/// The row of the table that fits a name best: of the same name, else of the longest name that
+/// stands in it as a word; null if none does.
 const CsvRow* row_of(const CsvTable& table, const std::string& name) {
-    const auto same = std::ranges::find_if(
-        table.rows, [&](const CsvRow& row) { return row.fields.front() == name; });
-    if (same != table.rows.end()) return &*same;
-    const std::set<std::string> words = words_of(name);
     const CsvRow* best = nullptr;
-    std::size_t most = 0;
     for (const CsvRow& row : table.rows) {
-        const std::set<std::string> needed = words_of(row.fields.front());
-        if (needed.size() <= most || !std::ranges::includes(words, needed)) continue;
-        best = &row;
-        most = needed.size();
+        const std::string& known = row.fields.front();
+        if (known == name) return &row;
+        const std::regex word("(^|[^a-z])" + known + "([^a-z]|$)", std::regex::icase);
+        if ((!best || known.size() > best->fields.front().size()) && std::regex_search(name, word))
+            best = &row;
     }
     return best;
 }

@@ -226,12 +226,9 @@ int inspect(const InspectArguments& arguments) {
 }  // namespace
 
 void add_inspect(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand(
-                "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound")
-             ->group("Look");
-    add_examples(
-        command,
+    CLI::App& command = add_command(
+        app, "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound",
+        "Look",
         {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
          "sonarsim inspect bathymetry.tif", "sonarsim inspect materials.csv --frequency-khz 900"});
     auto arguments = std::make_shared<InspectArguments>();

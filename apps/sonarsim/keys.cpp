@@ -81,11 +81,9 @@ void add_warnings(CLI::App& app, int& exit_code) {
 }
 
 void add_keys(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("keys",
-                            "Prints every key of a mission with its default, range and meaning")
-             ->group("Learn");
-    add_examples(command, {"sonarsim keys noise", "sonarsim keys --json > sonarsim.schema.json"});
+    CLI::App& command = add_command(
+        app, "keys", "Prints every key of a mission with its default, range and meaning", "Learn",
+        {"sonarsim keys noise", "sonarsim keys --json > sonarsim.schema.json"});
     auto json = std::make_shared<bool>(false);
     auto text = std::make_shared<std::string>();
     command.add_option("text", *text, "A part of the key's path, as noise (default: every key)");

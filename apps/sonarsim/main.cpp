@@ -11,7 +11,6 @@
 #include <sstream>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -46,15 +45,6 @@ std::string version_text() {
            build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder;
 }
 
-/// The commands that former versions had, and what stands in for each.
-constexpr std::pair<const char*, const char*> former_commands[] = {
-    {"completion", "completion of command lines is left out; --help lists the options"},
-    {"contact-sheet", "contact sheets are left out; montage of ImageMagick makes them"},
-    {"man", "use --help; Debian's package has a manual page"},
-    {"materials", "use: sonarsim inspect FILE.csv"},
-    {"schema", "use: sonarsim keys --json"},
-};
-
 /// The message for an unknown word on the command line, with the nearest known one.
 std::string unknown_word(const CLI::App& app, const std::string& word) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -71,9 +61,6 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
     if (!chosen.empty()) return "one argument too many: '" + word + "'";
     for (const CLI::App* command : app.get_subcommands({}))
         known.push_back(command->get_name());
-    for (const auto& [name, instead] : former_commands) {
-        if (word == name) return "there is no subcommand '" + word + "': " + instead;
-    }
     if (word.ends_with(".yaml") || word.ends_with(".yml"))
         return "a subcommand must come first, as in: sonarsim render " + word;
     return "unknown subcommand '" + word + "'" + did_you_mean(word, known);

@@ -64,12 +64,12 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand("merge",
-                                            "Copies the shards of one mission into one folder, "
-                                            "which sonarsim render then completes")
-                             ->group("Make");
-    add_examples(command, {"sonarsim merge out/part1 out/part2 out/hull",
-                           "sonarsim render mission.yaml --out out/hull"});
+    CLI::App& command = add_command(app, "merge",
+                                    "Copies the shards of one mission into one folder, "
+                                    "which sonarsim render then completes",
+                                    "Make",
+                                    {"sonarsim merge out/part1 out/part2 out/hull",
+                                     "sonarsim render mission.yaml --out out/hull"});
     auto arguments = std::make_shared<MergeArguments>();
     command
         .add_option("folders", arguments->folders,

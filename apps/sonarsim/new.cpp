@@ -178,11 +178,9 @@ int make_mission(const NewArguments& arguments) {
 }  // namespace
 
 void add_new(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("new", "Writes a mission around a mesh, with its guesses marked")
-             ->group("Make");
-    add_examples(command, {"sonarsim new hull.glb",
-                           "sonarsim new tyre.stl --preset gemini_720is --bed mud"});
+    CLI::App& command = add_command(
+        app, "new", "Writes a mission around a mesh, with its guesses marked", "Make",
+        {"sonarsim new hull.glb", "sonarsim new tyre.stl --preset gemini_720is --bed mud"});
     auto arguments = std::make_shared<NewArguments>();
     command.add_option("mesh", arguments->mesh, "A .gltf, .glb, .obj, .stl or .ply file")
         ->required();

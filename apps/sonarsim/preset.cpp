@@ -201,12 +201,10 @@ void print_presets(const PresetArguments& arguments) {
 }  // namespace
 
 void add_preset(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("preset",
-                            "Prints the levels of an instrument and the ranges at which it sees")
-             ->group("Learn");
-    add_examples(command, {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json",
-                           "sonarsim preset"});
+    CLI::App& command = add_command(
+        app, "preset", "Prints the levels of an instrument and the ranges at which it sees",
+        "Learn",
+        {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json", "sonarsim preset"});
     auto arguments = std::make_shared<PresetArguments>();
     command.add_option("preset", arguments->name,
                        "A file of a sensor's keys, or the name of a preset of configs/sensors "

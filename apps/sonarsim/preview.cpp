@@ -58,11 +58,9 @@ int preview(const PreviewArguments& arguments) {
 }  // namespace
 
 void add_preview(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("preview",
-                            "Draws one picture of a mission: what the sonars see, and from where")
-             ->group("Look");
-    add_examples(command, {"sonarsim preview mission.yaml --ping 20"});
+    CLI::App& command = add_command(
+        app, "preview", "Draws one picture of a mission: what the sonars see, and from where",
+        "Look", {"sonarsim preview mission.yaml --ping 20"});
     auto arguments = std::make_shared<PreviewArguments>();
     add_mission_options(command, arguments->mission, MissionOutput::other);
     command

@@ -6,51 +6,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
-#include <vector>
 
 namespace sonarsim {
 
 namespace {
 
 constexpr int bar_width = 20;
-
-/// A stage in the words of users.
-std::string_view title_of(std::string_view stage) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> titles{
-        {{"trace", "visible surface"},
-         {"multipath", "multipath"},
-         {"accumulate", "echoes"},
-         {"noise", "noise and beams"},
-         {"label", "labels"},
-         {"encode", "making files"},
-         {"write", "writing files"}}};
-    const auto found =
-        std::ranges::find(titles, stage, [](const auto& title) { return title.first; });
-    return found == titles.end() ? stage : found->second;
-}
-
-/// "visible surface 41 %, making files 30 %".
-std::string shares_text(std::span<const StageSeconds> stages) {
-    constexpr std::size_t most = 3;
-    std::vector<StageSeconds> sorted(stages.begin(), stages.end());
-    std::ranges::stable_sort(sorted,
-                             [](const auto& a, const auto& b) { return a.second > b.second; });
-    double sum = 0.0;
-    for (const StageSeconds& stage : sorted)
-        sum += stage.second;
-    std::string text;
-    constexpr double least = 0.01;
-    for (std::size_t i = 0; i < std::min(most, sorted.size()) && sorted[i].second > least * sum;
-         ++i) {
-        text += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", title_of(sorted[i].first),
-                            100.0 * sorted[i].second / sum);
-    }
-    return text;
-}
 
 std::string bar_of(std::uint64_t done, std::uint64_t total) {
     const auto filled =
@@ -93,19 +57,16 @@ ProgressLine::~ProgressLine() {
     if (on_terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
-void ProgressLine::show(std::uint64_t done, std::uint64_t total,
-                        std::span<const StageSeconds> stages) {
+void ProgressLine::show(std::uint64_t done, std::uint64_t total) {
     const Clock::time_point now = Clock::now();
     if (silent_ || now < next_ || done == 0) return;
     const double rate =
         static_cast<double>(done) / std::chrono::duration<double>(now - start_).count();
-    const std::string shares = shares_text(stages);
     const std::string speed = rate < 0.1
                                   ? "one in " + duration_text(1.0 / rate)
                                   : fmt::format("{:.{}f} {}/s", rate, rate < 10.0 ? 2 : 0, what_);
-    std::string text = fmt::format("{} of {} {}, {}, {} left{}{}", done, total, what_, speed,
-                                   duration_text(static_cast<double>(total - done) / rate),
-                                   shares.empty() ? "" : "; ", shares);
+    std::string text = fmt::format("{} of {} {}, {}, {} left", done, total, what_, speed,
+                                   duration_text(static_cast<double>(total - done) / rate));
     if (!on_terminal_) {
         next_ = now + std::chrono::minutes(1);
         spdlog::info("{}", text);

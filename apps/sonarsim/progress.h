@@ -2,10 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 
 #include "logging.h"
 #include "run/job/parallel.h"
@@ -18,9 +15,6 @@ std::string duration_text(double seconds);
 /// "30 pings rendered, 12 were there already".
 std::string made_text(std::uint64_t made, std::uint64_t there, const char* how = "rendered");
 
-/// A stage of the work and its seconds so far.
-using StageSeconds = std::pair<std::string_view, double>;
-
 /// Shows the number of `what` ("pings") that are done, the rate and the time left: in one line that
 /// is rewritten if stderr is a terminal, else in a message every minute; not at all with --quiet.
 class ProgressLine {
@@ -30,8 +24,7 @@ class ProgressLine {
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// Shows the shares of `stages`, the largest first.
-    void show(std::uint64_t done, std::uint64_t total, std::span<const StageSeconds> stages = {});
+    void show(std::uint64_t done, std::uint64_t total);
     /// Calls show(). The line must outlive it.
     ProgressCallback callback() {
         return [this](std::uint64_t done, std::uint64_t total) { show(done, total); };

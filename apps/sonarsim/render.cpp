@@ -58,9 +58,9 @@ double pings_per_s(const RenderSummary& summary) {
     return summary.seconds > 0.0 ? static_cast<double>(summary.pings) / summary.seconds : 0.0;
 }
 
-std::vector<StageSeconds> stage_seconds(const RenderSummary& summary) {
-    std::vector<StageSeconds> stages;
-    stages.reserve(ping_timers.size() + 3);
+/// The stages of the work and their seconds.
+std::vector<std::pair<std::string_view, double>> stage_seconds(const RenderSummary& summary) {
+    std::vector<std::pair<std::string_view, double>> stages;
     for (const auto& timer : ping_timers)
         stages.emplace_back(timer.name, summary.stages.*timer.member);
     stages.emplace_back("label", summary.label_seconds);
@@ -70,7 +70,7 @@ std::vector<StageSeconds> stage_seconds(const RenderSummary& summary) {
 }
 
 void print_table(const RenderSummary& summary) {
-    const std::vector<StageSeconds> stages = stage_seconds(summary);
+    const auto stages = stage_seconds(summary);
     double sum = 0.0;
     for (const auto& stage : stages)
         sum += stage.second;
@@ -183,9 +183,7 @@ Outcome render_one(const RenderArguments& arguments, const Mission& mission,
     ProgressLine line(arguments.log);
     out.summary = run_job(
         mission, assembly, arguments.render,
-        [&](const RenderSummary& so_far, std::uint64_t total) {
-            line.show(so_far.pings, total, stage_seconds(so_far));
-        },
+        [&](const RenderSummary& so_far, std::uint64_t total) { line.show(so_far.pings, total); },
         stop);
     out.after = out.summary.warnings;
     for (Warning& warning : image_warnings(mission, assembly, out.summary.sensors))
@@ -243,12 +241,8 @@ int render(RenderArguments arguments) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("render",
-                            "Renders a mission into its dataset, or resumes an interrupted one")
-             ->group("Make");
-    add_examples(
-        command,
+    CLI::App& command = add_command(
+        app, "render", "Renders a mission into its dataset, or resumes an interrupted one", "Make",
         {"sonarsim render mission.yaml",
          "sonarsim render mission.yaml --out out/noisy --set sensors.fls.noise.add_sigma=0.2",
          "sonarsim render mission.yaml --shard 2/8 --out out/part2"});

@@ -103,11 +103,9 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("report",
-                            "Measures what each engine costs this mission, in time and in error")
-             ->group("Check");
-    add_examples(command, {"sonarsim report mission.yaml --quick --out out/report"});
+    CLI::App& command = add_command(
+        app, "report", "Measures what each engine costs this mission, in time and in error",
+        "Check", {"sonarsim report mission.yaml --quick --out out/report"});
     auto arguments = std::make_shared<ReportArguments>();
     add_mission_options(command, arguments->mission);
     command

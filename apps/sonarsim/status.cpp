@@ -56,9 +56,8 @@ int status(const StatusArguments& arguments) {
 }  // namespace
 
 void add_status(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("status", "Prints the progress of a job")->group("Check");
-    add_examples(command, {"sonarsim status out/part1 out/part2"});
+    CLI::App& command = add_command(app, "status", "Prints the progress of a job", "Check",
+                                    {"sonarsim status out/part1 out/part2"});
     auto arguments = std::make_shared<StatusArguments>();
     command
         .add_option("folders", arguments->folders,

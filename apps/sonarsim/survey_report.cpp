@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/short_text.h"
 #include "core/text.h"
 #include "logging.h"
 #include "progress.h"

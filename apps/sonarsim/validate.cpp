@@ -305,13 +305,13 @@ int validate(const ValidateArguments& arguments) {
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand("validate",
-                                            "Checks a mission and all it names, and looks at it "
-                                            "through its sonars; writes nothing")
-                             ->group("Check");
-    add_examples(command,
-                 {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
-                  "sonarsim validate mission.yaml --strict"});
+    CLI::App& command =
+        add_command(app, "validate",
+                    "Checks a mission and all it names, and looks at it "
+                    "through its sonars; writes nothing",
+                    "Check",
+                    {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
+                     "sonarsim validate mission.yaml --strict"});
     auto arguments = std::make_shared<ValidateArguments>();
     add_mission_options(command, arguments->mission);
     command.add_flag("--overwrite", arguments->overwrite, "Allow any output folder, as in render");

@@ -60,11 +60,9 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void add_verify(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        *app.add_subcommand("verify",
-                            "Checks that a dataset is whole: every file is there and has its bytes")
-             ->group("Check");
-    add_examples(command, {"sonarsim verify out/hull"});
+    CLI::App& command = add_command(
+        app, "verify", "Checks that a dataset is whole: every file is there and has its bytes",
+        "Check", {"sonarsim verify out/hull"});
     auto arguments = std::make_shared<VerifyArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
     add_threads_option(command, arguments->threads);
