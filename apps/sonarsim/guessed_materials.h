@@ -16,8 +16,8 @@ struct GuessedMaterials {
 
 /// Rows for the materials of a mesh and for the others that are named, `beds`, from the table
 /// scenes/materials.csv of the program: that of the same name, else that of the longest word in
-/// it ("Hull_wood.001": wood), else that of steel, or of sand for a bed. InputError when the table is
-/// missing.
+/// it ("Hull_wood.001": wood), else that of steel, or of sand for a bed. InputError when the table
+/// is missing.
 GuessedMaterials guess_materials(const Scene& mesh, const std::vector<std::string>& beds);
 
 }  // namespace sonarsim
