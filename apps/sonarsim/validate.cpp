@@ -308,7 +308,7 @@ void add_validate(CLI::App& app, int& exit_code) {
     CLI::App& command =
         add_command(app, "validate",
                     "Checks a mission and all it names, and looks at it "
-                    "through its sonars; writes nothing",
+                    "through its sonars; leaves no files",
                     "Check",
                     {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
                      "sonarsim validate mission.yaml --strict"});

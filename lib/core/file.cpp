@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -203,7 +204,10 @@ void StreamedFile::finish() {
 }
 
 ScratchFolder::ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sonarsim-XXXXXX").string();
+    std::error_code fault;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(fault);
+    if (fault) throw std::runtime_error("TMPDIR names no folder for temporary files");
+    std::string name = (parent / "sonarsim-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw_errno("cannot make", name);
     path_ = name;
 }

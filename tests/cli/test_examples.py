@@ -21,7 +21,7 @@ GROUPS = (
     ("close_bottom",),
     ("wreck_imaging", "wreck_calibrated", "wreck_echosounder_calibrated", "seafloor_sidescan",
      "seafloor_sidescan_calibrated", "rough_sea_sidescan"),
-    ("minefield_variants", "detection", "reconstruction"),
+    ("minefield_variants", "detection", "reconstruction", "basin_debris"),
     ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"),
     ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan",
      "yawing_camera", "towed_sidescan", "swath_bathymetry", "moored_echosounder"),
