@@ -84,7 +84,7 @@ class Pings(tool.ToolTest):
             own_frame = r * np.stack([np.cos(theta) * np.cos(phi), np.sin(theta) * np.cos(phi), np.sin(phi)])
             found = (c2w @ np.vstack([own_frame, np.ones_like(r)]))[:3].T
             np.testing.assert_allclose(found, points.position_m, atol=1e-6)
-            self.assertLessEqual(np.abs(phi).max(), 0.5 * vfov + 5e-3)
+            self.assertLessEqual(np.abs(phi).max(), 0.5 * vfov + 1e-2)  # a parallelogram ends beside the view
         data = (self.folder / "dest/mesh.glb").read_bytes()
         size = struct.unpack_from("<I", data, 12)[0]
         self.assertEqual(struct.unpack_from("<I", data, 8)[0], len(data))
