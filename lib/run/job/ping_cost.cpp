@@ -44,7 +44,7 @@ double ratio(std::size_t a, std::size_t b) {
 }
 
 /// The bytes of the products of all pings of a sonar: those of some pings, whose records are these
-/// in turn, made in a folder that goes again. `all`: the writers of all pings. `records`: by writer
+/// in turn, made in a temporary folder. `all`: the writers of all pings. `records`: by writer
 /// and ping.
 double product_bytes(const WriterContext& context, const Writers& all,
                      const std::vector<Records>& records) {

@@ -19,7 +19,7 @@ std::string hash_of(const std::vector<T>& values) {
 
 std::string inputs_hash(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
-    // A glTF may name files of vertices, and an image one of its place; they are no inputs.
+    // Vertices may lie in a file that a glTF names, which is not among the inputs.
     std::string text = hash_of(scene.vertices) + hash_of(scene.triangles);
     for (const double x : {scene.origin.x(), scene.origin.y(), scene.origin.z()})
         text += " " + number_text(x);

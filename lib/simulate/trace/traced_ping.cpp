@@ -1,5 +1,7 @@
 #include "simulate/trace/traced_ping.h"
 
+#include <utility>
+
 #include "core/clock.h"
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/through_walls.h"
@@ -37,14 +39,15 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     finish(samples);
     if (settings.sees_water_surface)
         add_water_surface(view, scene, engine, T_world_sensor, motion, samples);
+    if (settings.multipath.on && &engine.by_rays() != &engine) {
+        Samples rays = visible_surface(view, engine.by_rays(), T_world_sensor);
+        replace_samples(targets, view, rays);
+        finish(rays);
+        traced.rays = std::move(rays);
+    }
     traced.seconds.trace = watch.lap();
 
     // 2. Multipath, Eq. 1-3.
-    if (settings.multipath.on && &engine.by_rays() != &engine) {
-        traced.rays = visible_surface(view, engine.by_rays(), T_world_sensor);
-        replace_samples(targets, view, traced.rays);
-        finish(traced.rays);
-    }
     if (terms.multipath) trace_multipath(settings, scene, engine, traced);
     return traced;
 }

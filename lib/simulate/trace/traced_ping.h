@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/pose.h"
@@ -37,7 +38,7 @@ struct TracedPing {
     MapStrengths map_strengths = MapStrengths::in_samples;
     Samples samples;
     std::vector<BouncePath> bounces;  ///< multipath paths from samples in beams
-    Samples rays;  ///< the samples of rays that multipath starts from; empty: `samples`
+    std::optional<Samples> rays;      ///< the samples that multipath starts from; none: `samples`
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
@@ -46,7 +47,7 @@ struct TracedPing {
     PingSeconds seconds;
 
     /// The samples that `bounces` number.
-    const Samples& starts() const { return rays.items.empty() ? samples : rays; }
+    const Samples& starts() const { return rays ? *rays : samples; }
     int groups() const { return 1 + static_cast<int>(later_groups.size()); }
     const TracedPing& group(int number) const {
         return number == 0 ? *this : later_groups[static_cast<std::size_t>(number) - 1];
