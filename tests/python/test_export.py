@@ -281,13 +281,19 @@ class Export(tool.ToolTest):
                    files={**own["files"], "raw": "fls/raw/%06d.png"})
         path.write_text(json.dumps(description))
         (self.out / "fls/raw").mkdir()
-        for ping in range(PINGS):
-            Image.fromarray((bins % 251).astype(np.uint8)).save(self.out / f"fls/raw/{ping:06}.png")
-            (self.out / f"fls/objects/{ping:06}.json").write_text(json.dumps({"objects": []}))
-        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--image", "raw")
-        found = np.asarray(Image.open(next(self.dest.rglob("fls-000002.png"))))
         of_bins = open_dataset(self.out)["fls"].to_fan(bins, 80, -1)
-        np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, of_bins % 251))
+        for ping in range(PINGS):
+            (self.out / f"fls/objects/{ping:06}.json").write_text(json.dumps({"objects": []}))
+        for bits in (4, 8, 12, 16):     # white is the largest value of these bits, as in fan/
+            largest = 2 ** bits - 1
+            (self.out / "mission.resolved.yaml").write_text(f"sensors: {{fls: {{instrument: {{receiver: {{bits: {bits}}}}}}}}}\n")
+            for ping in range(PINGS):
+                raw = (bins * 9 % (largest + 1)).astype(np.uint8 if bits <= 8 else np.uint16)
+                Image.fromarray(raw).save(self.out / f"fls/raw/{ping:06}.png")
+            dest = self.folder / f"bits{bits}"
+            self.export(self.out, "--format", "yolo", "--sensor", "fls", "--image", "raw", dest=dest)
+            found = np.asarray(Image.open(next(dest.rglob("fls-000002.png"))))
+            np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, np.floor(255 * (of_bins * 9 % (largest + 1)) / largest + 0.5)))
         self.assertLess((found == 0).mean(), 0.5)
         without_fan = json.loads(json.dumps(description))
         without_fan["sensors"][0].pop("fan")

@@ -10,23 +10,17 @@ import struct
 
 import numpy as np
 
-from ..command import naming, need
+from ..command import naming
 from ..data import DataError, moved
 from .formats import place, write_json
+from .source import full_value_of, mission_of
 
 UNITS = {"m": 1.0, "mm": 1e-3, "cm": 0.01, "km": 1e3, "in": 0.0254, "ft": 0.3048}
 
 
-def mission_of(dataset):
-    """The mission of a dataset with every default."""
-    need("export", "yaml")
-    from ..recording import dataset as own     # pylint: disable=import-outside-toplevel
-    return own.read_yaml(dataset.folder / "mission.resolved.yaml", own.LARGEST_MISSION)
-
-
 def write(folder, dataset, sensors, options):
     """Data/000012.pkl for each ping and Config.json, in a folder for each sonar if there are several."""
-    mission, sensors = mission_of(dataset), [one for one in sensors if one.kind == "imaging"]
+    mission, sensors = mission_of(dataset.folder), [one for one in sensors if one.kind == "imaging"]
     if not sensors:
         raise DataError(f"{dataset.folder}: has no imaging sonar, and this layout holds no other")
     for sensor in sensors:
@@ -35,9 +29,9 @@ def write(folder, dataset, sensors, options):
         if name not in sensor.keys:
             raise DataError(f"{dataset.folder}: sensor {sensor.name!r} has no {name}; set output."
                             f"{'labels: [clean]' if options.clean else name + ': true'} and render it again")
+        full = full_value_of(sensor) if name == "raw" else 1.0
         for sample in sensor:
             image = sample[name]
-            full = 2.0 ** mission["sensors"][sensor.name]["instrument"]["receiver"]["bits"] - 1 if name == "raw" else 1.0
             state = {"ImagingSonar": (image / full).astype(np.float32), "PoseSensor": matrix_of(sample["meta"]["T_world_sensor"])}
             # numpy 1 has no module _core.
             place(own / "Data", f"{sample.ping:06}.pkl", pickle.dumps(state, 3).replace(b"cnumpy._core.", b"cnumpy.core.", 1))

@@ -143,8 +143,8 @@ def show(one, picture, frame, options):
 
 def pixels_of(picture, is_whole, options):
     """The grey values, or colours, of a picture in 8 bits, None if nothing needs them, and whether its file can be
-    copied. White is full_scale, and grey its square root."""
-    is_copy = False
+    copied. White is full_scale, and grey its square root; raw/ stays linear."""
+    is_copy, is_raw = False, picture.path.parent.name == "raw"
     try:
         if picture.path.suffix == ".npy":
             values = data.read_npy(picture.path.read_bytes()).astype(np.float64)
@@ -156,13 +156,14 @@ def pixels_of(picture, is_whole, options):
                     raise data.Damage("its width and height cannot be right")
                 is_grey = image.mode in ("L", "I", "I;16")
                 is_copy = (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")
-                           and image.size == (picture.width, picture.height))
+                           and not (is_raw and picture.full_scale < 255) and image.size == (picture.width, picture.height))
                 if is_copy and not options.min_grey and options.format != "crops":
                     return None, True
                 pixels = np.asarray(image if is_grey else image.convert("RGB"))
-            if pixels.dtype != np.uint8:
-                wide = pixels.astype(np.uint16)
-                pixels = (wide >> 8).astype(np.uint8) if picture.path.parent.name == "raw" else GREYS[wide]
+            if is_raw:
+                pixels = np.floor(255 * (pixels / picture.full_scale).clip(0, 1) + 0.5).astype(np.uint8)
+            elif pixels.dtype != np.uint8:
+                pixels = GREYS[pixels.astype(np.uint16)]
             if picture.bins is not None and picture.bins.max() < pixels.size:
                 pixels = np.where(picture.bins < 0, 0, pixels.ravel()[np.maximum(picture.bins, 0)])
     except (*data.FAULTS, OSError) as fault:

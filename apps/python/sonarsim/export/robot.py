@@ -5,8 +5,8 @@ import numpy as np
 
 from ..command import naming
 from ..data import middles
-from .holoocean import mission_of
 from .mcap import Writer
+from .source import mission_of
 
 DTYPES = {"u1": 0, "u2": 2, "f4": 8}    # numbers of marine_acoustic_msgs/SonarImageData
 WORLD, VEHICLE = "map", "base_link"
@@ -15,7 +15,7 @@ FAN = {"rotation": {"x": 0.5**0.5, "z": 0.5**0.5}}      # marine_acoustic_msgs: 
 
 def write(folder, dataset, sensors, _options):
     """pings.mcap. Frames: map, base_link, NAME (x forward, y left, z up) and NAME_fan, in which beams are named."""
-    mission, path = mission_of(dataset), folder / "pings.mcap"
+    mission, path = mission_of(dataset.folder), folder / "pings.mcap"
     jobs = sorted(((sample.ping, k, sample) for k, sensor in enumerate(sensors) for sample in sensor), key=lambda job: job[:2])
     with naming(path), open(path, "wb") as file:
         writer, last = Writer(file), None

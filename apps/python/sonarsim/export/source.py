@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from .. import data
+from ..command import need
 from . import split
 
 MOST_PIXELS = 1 << 31
@@ -25,7 +26,7 @@ class Picture:
     kind: str                   # "fan", "bins", "strip" (waterfall, echogram) or "sweep"
     width: int
     height: int
-    full_scale: float           # the intensity that is white, for arrays of intensities
+    full_scale: float           # the intensity that is white, for arrays of intensities; of raw/ the largest value
     parts: list                 # the part of each row or column of pings of a strip, else one part
     rows_are_pings: bool = True
     bins: object = None         # the bin of each pixel, -1 for none, of a fan that is drawn from its bins
@@ -149,11 +150,26 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
         if is_raw:
             bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), width, -1)
         shape = width, height
+    full_value = full_value_of(sensor) if is_raw else float(sensor.description["full_scale"])
     for k, part in enumerate(of_ping):
         one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
                       [part])
-        one.bins = bins
+        one.bins, one.full_scale = bins, full_value
         yield one
+
+
+def mission_of(folder):
+    """The mission of a dataset with every default."""
+    need("export", "yaml")
+    from ..recording import dataset as own     # pylint: disable=import-outside-toplevel
+    return own.read_yaml(folder / "mission.resolved.yaml", own.LARGEST_MISSION)
+
+
+def full_value_of(sensor):
+    """The largest value of the raw/ of a sensor: 2^bits - 1."""
+    with data.reading(sensor.folder / "mission.resolved.yaml"):
+        bits = mission_of(sensor.folder)["sensors"][sensor.name]["instrument"]["receiver"]["bits"]
+        return 2.0 ** data.whole(bits, 4, "bits") - 1
 
 
 def pixel_m_of(picture, sensor, dataset):
