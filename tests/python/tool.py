@@ -1,10 +1,12 @@
 """Runs a tool of the package, and makes what several tests read."""
+import multiprocessing
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -13,12 +15,32 @@ PACKAGE = ROOT / "apps/python"
 sys.path.insert(0, str(PACKAGE))
 
 
-def run(name, *words, setup=""):
-    """`python3 -m sonarsim.NAME WORDS`, after the Python of `setup`."""
-    program = (f"import runpy, sys\n{setup}\nsys.argv[0] = {name!r}\n"
+def run(name, *words, setup="", anew=False):
+    """`python3 -m sonarsim.NAME WORDS`, after the Python of `setup`: in a fork of this process, which has loaded the libraries,
+    or `anew` in a process of its own."""
+    program = (f"import runpy, sys\n{setup}\nsys.argv = {[name, *map(str, words)]!r}\n"
                f"runpy.run_module('sonarsim.{name}', run_name='__main__', alter_sys=True)")
-    return subprocess.run([sys.executable, "-B", "-c", program, *map(str, words)], text=True, capture_output=True, check=False,
-                          env={**os.environ, "PYTHONPATH": str(PACKAGE)})
+    if anew:
+        return subprocess.run([sys.executable, "-B", "-c", program], text=True, capture_output=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(PACKAGE)})
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        fork = multiprocessing.get_context("fork").Process(target=become, args=(program, out, err))
+        fork.start()
+        fork.join()
+        out.seek(0)
+        err.seek(0)
+        return subprocess.CompletedProcess(words, fork.exitcode, out.read(), err.read())
+
+
+def become(program, out, err):
+    """Runs a program with the package as it is on disk."""
+    for file, number in ((out, 1), (err, 2)):
+        os.dup2(file.fileno(), number)
+    sys.stdout, sys.stderr = open(1, "w", closefd=False), open(2, "w", closefd=False)
+    warnings.simplefilter("ignore", ResourceWarning)    # as a new process does
+    for module in [one for one in sys.modules if one.partition(".")[0] == "sonarsim"]:
+        del sys.modules[module]
+    exec(program, {})
 
 
 class ToolTest(unittest.TestCase):
@@ -38,10 +60,10 @@ class ToolTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         return result.stdout
 
-    def assert_refused(self, name, text, *words, code=2, setup=""):
+    def assert_refused(self, name, text, *words, code=2, setup="", anew=False):
         """One sentence, the exit code, and nothing written."""
         before = sorted(self.folder.rglob("*"))
-        result = run(name, *words, setup=setup)
+        result = run(name, *words, setup=setup, anew=anew)
         self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
         self.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
