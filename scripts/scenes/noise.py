@@ -1,7 +1,9 @@
 """Value noise of our own: the same numbers in every version of Python."""
+import functools
 import math
 
 
+@functools.lru_cache(1 << 18)    # a lattice point has many points around it
 def lattice(i, j, k, seed):
     """The number in [-1, 1) of a lattice point."""
     h = (i * 0x9E3779B1 ^ j * 0x85EBCA77 ^ k * 0xC2B2AE3D ^ seed * 0x27D4EB2F) & 0xFFFFFFFF
@@ -16,13 +18,6 @@ class Noise2:
     def __init__(self, spacing, seed):
         self.spacing = spacing
         self.seed = seed
-        self.known = {}
-
-    def corner(self, i, j):
-        value = self.known.get((i, j))
-        if value is None:
-            value = self.known[i, j] = lattice(i, j, 0, self.seed)
-        return value
 
     def __call__(self, x, y):
         x /= self.spacing
@@ -31,8 +26,7 @@ class Noise2:
         u, v = x - i, y - j
         u *= u * (3 - 2 * u)
         v *= v * (3 - 2 * v)
-        low = self.corner(i, j) * (1 - u) + self.corner(i + 1, j) * u
-        high = self.corner(i, j + 1) * (1 - u) + self.corner(i + 1, j + 1) * u
+        low, high = (lattice(i, at, 0, self.seed) * (1 - u) + lattice(i + 1, at, 0, self.seed) * u for at in (j, j + 1))
         return low * (1 - v) + high * v
 
 
@@ -48,16 +42,14 @@ class Relief:
 
 def noise3(p, spacing, seed):
     """Smooth noise in space, in [-1, 1]."""
-    cell = [math.floor(c / spacing) for c in p]
-    weight = [c / spacing - i for c, i in zip(p, cell)]
-    weight = [w * w * (3 - 2 * w) for w in weight]
+    i, j, k = (math.floor(c / spacing) for c in p)
+    u, v, w = (c / spacing - i for c, i in zip(p, (i, j, k)))
+    u, v, w = (c * c * (3 - 2 * c) for c in (u, v, w))
     total = 0.0
-    for corner in range(8):
-        offset = [corner & 1, corner >> 1 & 1, corner >> 2]
-        share = 1.0
-        for w, o in zip(weight, offset):
-            share *= w if o else 1 - w
-        total += share * lattice(*(i + o for i, o in zip(cell, offset)), seed)
+    for c, upper in ((k, 1 - w), (k + 1, w)):
+        for b, inner in ((j, 1 - v), (j + 1, v)):
+            total += (1 - u) * inner * upper * lattice(i, b, c, seed)
+            total += u * inner * upper * lattice(i + 1, b, c, seed)
     return total
 
 

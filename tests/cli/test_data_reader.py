@@ -84,8 +84,8 @@ class Reader(Sandbox):
             sensor = self.open()[name]
             polar = np.random.default_rng(1).random((len(sensor.range_edges_m) - 1,
                                                      len(sensor.azimuth_edges_rad) - 1))
-            back = sensor.from_fan(sensor.to_fan(polar, width=4000))
-            # A pixel is reach / 2000 wide or less, and a bin of the row r about r * azimuth wide.
+            back = sensor.from_fan(sensor.to_fan(polar, width=2000))
+            # A pixel is reach / 1000 wide or less, and a bin of the row r about r * azimuth wide.
             np.testing.assert_array_equal(back[2:], polar[2:])
             ids = sensor.to_fan(np.ones(polar.shape, np.uint16), width=101)
             self.assertEqual((ids.dtype, set(np.unique(ids))), (np.uint16, {0, 1}))
@@ -173,7 +173,7 @@ vehicle: {{navigation: {{position_m: 0.1}}}}
 scene:
   file: box.gltf
   materials: materials.csv
-  objects: [{{name: crate, file: crate.gltf, trajectory: {{file: path.csv}}}}]
+  objects: [{{name: crate, file: crate.gltf, trajectory: {{file: crate.csv}}}}]
   particles: [{{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}}]
 trajectory: {{file: path.csv}}
 sensors:
@@ -198,6 +198,7 @@ class Keys(Sandbox):
     def test_the_tables_of_the_page_have_the_keys_of_a_dataset(self):
         """A key stands in its table, or all keys below it do; and a dataset has every key of the tables."""
         self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.1, 0.1, 0.1))]))
+        self.write("crate.csv", path_csv(6).replace(",0,0,0,0,0,", ",1.5,0,0,0,0,"))     # not around the sonars
         self.write("mission.yaml", KEYS)
         self.assert_renders()
         blocks = self.dataset("out/variant_0000")["sensors"]

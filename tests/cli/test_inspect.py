@@ -66,7 +66,8 @@ class New(Sandbox):
         for fragment in fragments:
             self.assertIn(fragment, printed + text + self.folder.joinpath(f"{mission.name}_materials.csv").read_text())
         self.assertIn(f"next        sonarsim preview {mission.name}.yaml\n", printed)
-        small = ("--set", "trajectory.count=4", "--set", "sensors.fls.azimuth_bins=128", "--set", "sensors.fls.range_bins=256")
+        small = [word for key in ("trajectory.count=4", "sensors.fls.azimuth_bins=128", "sensors.fls.range_bins=256",
+                                  "scene.seabed.cell_m=0.5") for word in ("--set", key)]
         found = json.loads(self.succeeds("validate", f"{mission.name}.yaml", "--json", *small).stdout)
         self.assertEqual((found["pings"], found["warnings"]), (4, []))
         self.succeeds("render", f"{mission.name}.yaml", "--out", "out", "--overwrite", *small)

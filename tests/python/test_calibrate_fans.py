@@ -5,7 +5,8 @@ import unittest
 import numpy as np
 from PIL import Image
 from tool import ROOT, ToolTest
-from sonarsim.data import open_dataset  # noqa: E402
+import sonarsim.calibrate.command
+from sonarsim.data import open_dataset
 
 START = """\
 kind: imaging
