@@ -122,8 +122,9 @@ std::string text_of_parts(const Findings& f) {
         text += result_line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
                                                   scene.shared_meshes.size()));
     }
-    if (const auto name = background_by_size(f.mission, scene, f.assembly.objects);
-        name && std::ranges::count(f.mission.output.labels, Label::objects) > 0) {
+    const bool has_objects = std::ranges::count(f.mission.output.labels, Label::objects) > 0;
+    if (const auto name =
+            has_objects ? background_by_size(f.mission, scene, f.assembly.objects) : std::nullopt) {
         text += result_line("background", fmt::format("'{}', the largest surface, is no object by "
                                                       "labels.background: [auto]; [none] keeps it",
                                                       printable(*name)));

@@ -158,6 +158,7 @@ class EstimatedSize(Sandbox):
         self.write("towed.yaml", (text[:scatter] + text[trajectory:]).replace("cell_m: 0.12", "cell_m: 0.4").replace("rippled_", ""))
         self.assert_states_the_bytes("towed.yaml", "trajectory.rate_hz=5", "sensors.sss.range_max_m=12", "output.xtf=true",
                                      "output.mosaic=true", "output.labels=[]")
+        self.succeeds("validate", "towed.yaml", "--set", "output.labels=[]", "--set", "sensors.sss.every=1000")
 
     def test_variants_of_a_seabed(self):
         self.assert_states_the_bytes(ROOT / "configs/made_seabeds.yaml", "variants=2", "trajectory.rate_hz=2")
