@@ -106,6 +106,7 @@ class SwathFiles(Gdal):
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):
+        self.assert_renders("--overwrite", "--set", "trajectory.rate_hz=8")     # cells of 0.2 m
         path = self.out / "sss/mosaic.tif"
         info, place = self.gdal_info(path), json.loads((self.out / "sss/mosaic.json").read_text())
         cell = place["cell_m"]
@@ -128,7 +129,25 @@ class SwathFiles(Gdal):
         # As long as the track, and as wide as 25 m of slant range reach on ground 10 m below.
         self.assertAlmostEqual(place["columns"] * cell, 20, delta=2 * cell)
         self.assertAlmostEqual(place["rows"] * cell, 2 * math.sqrt(25**2 - 10**2), delta=2 * cell)
-        self.assertEqual((place["pings"], place["pings_left_out"]), (81, 0))
+        self.assertEqual((place["pings"], place["pings_left_out"]), (161, 0))
+
+    @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
+    def test_a_mosaic_of_lines_that_overlap(self):
+        """Over a level floor no step lies where a swath begins or ends, and a turn leaves no comb of empty cells."""
+        self.edit("mission.yaml", "    - {name: block, file: block.gltf, position_m: [6, -12, -9.5]}\n", "")
+        self.edit("mission.yaml", "    - {position_m: [15, 0, 0], rpy_deg: [0, 0, 0]}\n", "".join(
+            f"    - {{position_m: [15, {y}, 0], rpy_deg: [0, 0, {yaw}]}}\n" for y, yaw in ((0, 0), (7, 180)))
+            + "    - {position_m: [-5, 7, 0], rpy_deg: [0, 0, 180]}\n")
+        self.assert_renders("--overwrite")
+        self.run_program("gdal_translate", "-q", "-of", "AAIGrid", "-co", "FORCE_CELLSIZE=YES", "out/sss/mosaic.tif", "mosaic.asc")
+        lines = (self.folder / "mosaic.asc").read_text().splitlines()
+        rows = [[float(word) for word in line.split()] for line in lines if len(line.split()) > 2]
+        for above, below in zip(rows[2:-4], rows[3:-3]):
+            one, other = (sum(row[12:28]) for row in (above, below))    # away from the ends of the lines
+            self.assertAlmostEqual(one / other, 1, delta=0.08)
+        for row in rows:
+            filled = [k for k, value in enumerate(row) if not math.isnan(value)]
+            self.assertEqual(len(filled), filled[-1] + 1 - filled[0])
 
 
 class Bathymetry(Gdal):

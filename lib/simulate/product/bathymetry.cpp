@@ -20,14 +20,18 @@ void SoundingBounds::add(const Eigen::Vector3d& position) {
     ++count;
 }
 
+std::optional<std::size_t> Bathymetry::cell_at(const Eigen::Vector2d& point) const {
+    const double column = std::floor(point.x() / cell_m) - first_column;
+    const double row = first_row - std::floor(point.y() / cell_m);
+    if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return std::nullopt;
+    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+}
+
 void Bathymetry::add(const Eigen::Vector3d& position) {
-    const double column = std::floor(position.x() / cell_m) - first_column;
-    const double row = first_row - std::floor(position.y() / cell_m);
-    if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return;
-    const std::size_t cell =
-        static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
-    sum[cell] += position.z();
-    ++count[cell];
+    const std::optional<std::size_t> cell = cell_at(position.head<2>());
+    if (!cell) return;
+    sum[*cell] += position.z();
+    ++count[*cell];
 }
 
 std::vector<float> Bathymetry::mean_z() const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "simulate/product/picture.h"
@@ -36,6 +37,8 @@ struct Bathymetry {
     std::vector<double> sum;           ///< [rows, columns], sums of world z
     std::vector<std::uint32_t> count;  ///< [rows, columns]
 
+    /// The index of the cell that holds a point, world x, y.
+    std::optional<std::size_t> cell_at(const Eigen::Vector2d& point) const;
     void add(const Eigen::Vector3d& position);
     /// The mean heights [rows, columns], m; NaN in cells without soundings.
     std::vector<float> mean_z() const;

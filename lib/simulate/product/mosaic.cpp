@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "simulate/product/bottom.h"
@@ -18,6 +19,19 @@ float echo_at(const Sonar& sonar, std::span<const float> row, double slant_m, in
     const auto bin = static_cast<std::ptrdiff_t>(column_m / sonar.settings.view.bin_m());
     if (bin >= half) return 0.0F;
     return row[static_cast<std::size_t>(side > 0 ? half - 1 - bin : half + bin)];
+}
+
+double echo_at_ground(const Sonar& sonar, const SwathRow& row, double ground_m, int side) {
+    const double altitude_m = row.swath.altitude_m;
+    return echo_at(sonar, row.values, std::sqrt(ground_m * ground_m + altitude_m * altitude_m),
+                   side);
+}
+
+void add_point(const Eigen::Vector2d& at, double echo, double weight, Mosaic& mosaic) {
+    const std::optional<std::size_t> cell = mosaic.grid.cell_at(at);
+    if (!cell) return;
+    mosaic.weight[*cell] += weight;
+    mosaic.grid.sum[*cell] += weight * echo;
 }
 
 }  // namespace
@@ -57,15 +71,36 @@ void add_bounds(const Swath& swath, SoundingBounds& bounds) {
     }
 }
 
-void rasterize(const Sonar& sonar, const Swath& swath, std::span<const float> row,
-               Bathymetry& map) {
-    // With two points per cell the line misses a cell only at its corners.
-    const double step = 0.5 * map.cell_m;
+std::vector<float> Mosaic::mean() const {
+    std::vector<float> echoes(weight.size(), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+        if (weight[k] > 0.0) echoes[k] = static_cast<float>(grid.sum[k] / weight[k]);
+    }
+    return echoes;
+}
+
+void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row, Mosaic& mosaic) {
+    constexpr double cos_10_degrees = 0.98480775301220806;
+    const double cell_m = mosaic.grid.cell_m;
+    const bool is_near = before.swath.port.dot(row.swath.port) > cos_10_degrees &&
+                         (row.swath.nadir_m - before.swath.nadir_m).norm() < 10.0 * cell_m;
+    const SwathRow& first = is_near ? before : row;
+    const double reach = std::min(first.swath.reach_m, row.swath.reach_m);
+    const double step = 0.5 * std::min(cell_m, sonar.settings.view.bin_m());
     for (const int side : {1, -1}) {
-        for (double ground = 0.5 * step; ground < swath.reach_m; ground += step) {
-            const double slant = std::sqrt(ground * ground + swath.altitude_m * swath.altitude_m);
-            const Eigen::Vector2d at = swath.nadir_m + side * ground * swath.port;
-            map.add({at.x(), at.y(), echo_at(sonar, row, slant, side)});
+        for (double ground = 0.5 * step; ground < reach; ground += step) {
+            const Eigen::Vector2d from = first.swath.nadir_m + side * ground * first.swath.port;
+            const Eigen::Vector2d way = row.swath.nadir_m + side * ground * row.swath.port - from;
+            const double echo = echo_at_ground(sonar, row, ground, side);
+            const double change = echo_at_ground(sonar, first, ground, side) - echo;
+            const double points = std::max(1.0, std::ceil(way.norm() / (0.25 * cell_m)));
+            const double share = ground / reach;
+            // A vehicle that stands still covers ground, too.
+            const double width = std::max(way.norm(), 0.05 * cell_m) / points;
+            for (double k = 0.5; k < points; ++k) {
+                add_point(from + k / points * way, echo + (1.0 - k / points) * change,
+                          4.0 * share * (1.0 - share) * width, mosaic);
+            }
         }
     }
 }

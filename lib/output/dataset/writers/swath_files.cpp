@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/file.h"
 #include "core/pose.h"
@@ -109,18 +110,25 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     for_each_row(context, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
-    Bathymetry map = make_bathymetry(bounds, mosaic_cell_m(context));
+    Mosaic mosaic(make_bathymetry(bounds, mosaic_cell_m(context)));
+    std::optional<SwathRow> before;
     for_each_row(context, rows, [&](const RecordedRow& row) {
-        if (row.swath) rasterize(context.sonar(), *row.swath, row.values, map);
+        if (!row.swath) return before.reset();
+        SwathRow now{*row.swath, {row.values.begin(), row.values.end()}};
+        add_between(context.sonar(), before ? *before : now, now, mosaic);
+        before = std::move(now);
     });
+    const Bathymetry& map = mosaic.grid;
     // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
-    std::vector<float> echoes = map.mean_z();
+    std::vector<float> echoes = mosaic.mean();
     if (echoes.empty()) echoes.push_back(std::nanf(""));
     const MapPlace place = map_place(context, map);
     write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1), place);
     const nlohmann::ordered_json json{
         {"file", "mosaic.tif"},
-        {"values", "mean echo of the pings over a cell; NaN where there are none"},
+        {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
+        {"weight", "4 u (1 - u) of the ground at the share u of a swath's reach"},
+        {"interpolation", "linear between pings"},
         {"rows", map.rows},
         {"columns", map.columns},
         {"cell_m", map.cell_m},
