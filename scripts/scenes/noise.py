@@ -12,32 +12,26 @@ def lattice(i, j, k, seed):
     return (h ^ (h >> 15)) / 2147483648.0 - 1.0
 
 
-class Noise2:
+def noise2(x, y, spacing, seed):
     """Smooth noise over the plane, one octave, in [-1, 1]; lattice points `spacing` apart."""
-
-    def __init__(self, spacing, seed):
-        self.spacing = spacing
-        self.seed = seed
-
-    def __call__(self, x, y):
-        x /= self.spacing
-        y /= self.spacing
-        i, j = math.floor(x), math.floor(y)
-        u, v = x - i, y - j
-        u *= u * (3 - 2 * u)
-        v *= v * (3 - 2 * v)
-        low, high = (lattice(i, at, 0, self.seed) * (1 - u) + lattice(i + 1, at, 0, self.seed) * u for at in (j, j + 1))
-        return low * (1 - v) + high * v
+    x /= spacing
+    y /= spacing
+    i, j = math.floor(x), math.floor(y)
+    u, v = x - i, y - j
+    u *= u * (3 - 2 * u)
+    v *= v * (3 - 2 * v)
+    low, high = (lattice(i, at, 0, seed) * (1 - u) + lattice(i + 1, at, 0, seed) * u for at in (j, j + 1))
+    return low * (1 - v) + high * v
 
 
 class Relief:
     """Octaves of noise, each half as wide and half as high as the one before."""
 
     def __init__(self, spacing, amplitude, octaves, seed):
-        self.octaves = [(amplitude / 2**n, Noise2(spacing / 2**n, seed + n)) for n in range(octaves)]
+        self.octaves = [(amplitude / 2**n, spacing / 2**n, seed + n) for n in range(octaves)]
 
     def __call__(self, x, y):
-        return sum(amplitude * noise(x, y) for amplitude, noise in self.octaves)
+        return sum(amplitude * noise2(x, y, spacing, seed) for amplitude, spacing, seed in self.octaves)
 
 
 def noise3(p, spacing, seed):

@@ -59,7 +59,11 @@ class Pings(tool.ToolTest):
     def test_what_neusis_loads(self):
         """load_data.py and get_arcs() of NeuSIS: the keys, degrees and metres of Config.json, the pickles in any order, and
         the point of a pixel (i, j) at the elevation phi. It is the one that sonarsim.data gives, within a bin."""
+        bed = self.rendered / "seabed/heights.tif"
+        bed.parent.mkdir()
+        bed.write_bytes(b"z of a bed")
         self.export("--format", "holoocean", "--sensor", "fls", "--clean", "--mesh", TANK)
+        self.assertEqual((self.folder / "dest/heights.tif").read_bytes(), bed.read_bytes())
         config = json.loads((self.folder / "dest/Config.json").read_text())
         for sensor in config["agents"][0]["sensors"]:
             if sensor["sensor_type"] != "ImagingSonar":

@@ -11,7 +11,7 @@ import struct
 import numpy as np
 
 from ..command import naming
-from ..data import DataError, moved
+from ..data import DataError, moved, own_file
 from .formats import place, write_json
 from .source import full_value_of, mission_of
 
@@ -19,7 +19,7 @@ UNITS = {"m": 1.0, "mm": 1e-3, "cm": 0.01, "km": 1e3, "in": 0.0254, "ft": 0.3048
 
 
 def write(folder, dataset, sensors, options):
-    """Data/000012.pkl for each ping and Config.json, in a folder for each sonar if there are several."""
+    """Data/000012.pkl for each ping, Config.json and heights of a made bed; a folder for each sonar if there are several."""
     mission, sensors = mission_of(dataset.folder), [one for one in sensors if one.kind == "imaging"]
     if not sensors:
         raise DataError(f"{dataset.folder}: has no imaging sonar, and this layout holds no other")
@@ -36,6 +36,8 @@ def write(folder, dataset, sensors, options):
             # numpy 1 has no module _core.
             place(own / "Data", f"{sample.ping:06}.pkl", pickle.dumps(state, 3).replace(b"cnumpy._core.", b"cnumpy.core.", 1))
         write_json(own / "Config.json", config_of(sensor, mission))
+        if (dataset.folder / "seabed/heights.tif").is_file():
+            place(own, "heights.tif", own_file(dataset.folder, "seabed/heights.tif"))
         if options.mesh:
             write_mesh(own / "mesh.glb", pathlib.Path(options.mesh), dataset, mission["scene"])
         yield f"{sensor.name}: {len(sensor)} states, {name} of {image.shape[0]} ranges x {image.shape[1]} azimuths"
