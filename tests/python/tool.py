@@ -27,9 +27,7 @@ def run(name, *words, setup="", anew=False):
         fork = multiprocessing.get_context("fork").Process(target=become, args=(program, out, err))
         fork.start()
         fork.join()
-        out.seek(0)
-        err.seek(0)
-        return subprocess.CompletedProcess(words, fork.exitcode, out.read(), err.read())
+        return subprocess.CompletedProcess(words, fork.exitcode, *(file.seek(0) or file.read() for file in (out, err)))
 
 
 def become(program, out, err):
