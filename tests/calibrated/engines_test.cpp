@@ -93,28 +93,35 @@ TEST_SUITE("calibrated") {
     }
 
     // The speckle of the scatterers of the scene has the mean power of the expected image, also
-    // where the ground is bent within a beam. Patches that overlap add an amplitude twice.
+    // where the ground is bent within a beam. Footprints that overlap add an amplitude twice.
     TEST_CASE("speckle over ripples keeps the level of the expected image") {
-        std::mt19937 random(31);
-        std::uniform_real_distribution<float> unit(0.0F, 1.0F);
         SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 7.5e5);
         config.instrument.speckle.mode = SpeckleMode::scene;
         config.range_min_m = 1.0;
         config.range_max_m = 10.0;
         const Sonar sonar = make_sonar(config, {0.03});
-        for (int k = 0; k < 3; ++k) {
-            const Scene scene = ripples(random);
-            Pose pose;
-            pose.translation.z() = 1.5;
-            pose.rotation = Eigen::AngleAxisd(0.25 + 0.1 * unit(random), Eigen::Vector3d::UnitY());
-            const auto sum = [&](const Terms& terms) -> double {
-                return total(expected_image(sonar, scene, EngineKind::rays, pose, terms));
-            };
-            // Some 10,000 resolution cells: the error of their mean is 0.04 dB.
-            const double level = sum({.random = 1}) / sum(direct_echoes_alone);
-            CAPTURE(k);
-            CHECK(std::fabs(10.0 * std::log10(level)) < 0.2);
-        }
+        const auto mean_db = [&](EngineKind engine) {
+            std::mt19937 random(31);
+            std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+            constexpr int scenes = 8;
+            double db = 0.0;
+            for (int k = 0; k < scenes; ++k) {
+                const Scene scene = ripples(random);
+                Pose pose;
+                pose.translation.z() = 1.5;
+                pose.rotation =
+                    Eigen::AngleAxisd(0.25 + 0.1 * unit(random), Eigen::Vector3d::UnitY());
+                const auto sum = [&](const Terms& terms) -> double {
+                    return total(expected_image(sonar, scene, engine, pose, terms));
+                };
+                db += 10.0 * std::log10(sum({.random = 1}) / sum(direct_echoes_alone)) / scenes;
+            }
+            return db;
+        };
+        // The level of one scene is off by some 0.06 dB, the mean of eight by 0.02. Patches of rays
+        // overlap a little.
+        CHECK(std::fabs(mean_db(EngineKind::strips)) < 0.06);
+        CHECK(std::fabs(mean_db(EngineKind::rays)) < 0.2);
     }
 
     // A strip as long as the bottom is wide would weigh the narrow middle of the beam as much as

@@ -1,5 +1,6 @@
 #include "calibrated/preset_fixtures.h"
 #include "core/elementary.h"
+#include "simulate/calibrated/scatterer_search.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -150,9 +151,9 @@ TEST_SUITE("calibrated") {
         const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
         constexpr int outer = 10;
         const int inner = patch.beams() - 2 * outer;
-        // The correlation of one seed is off by about 0.02: the mean of four is compared with the
+        // The correlation of one seed is off by about 0.02: the mean of twelve is compared with the
         // closed form.
-        constexpr std::uint32_t seeds = 4;
+        constexpr std::uint32_t seeds = 12;
         std::vector<std::vector<double>> here;
         for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
             here.push_back(patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed),
@@ -205,12 +206,54 @@ TEST_SUITE("calibrated") {
                 power *= power;
             seconds.push_back(mean(powers));
         }
-        // Sums of Gaussian amplitudes have 2. One scatterer of exponential strength s in each cell
-        // of a lattice adds the sum over cells of E[s^2] a integral of w^2 - 2 (integral of w)^2,
-        // by (integral of w)^2: 0.058 at this beam and pulse, a the area of a cell and w the power
-        // of pulse and beam. 4.5 standard errors of 20 seeds: two such tests fail once in 2,000
-        // runs. The spline that stands for the pulse adds a hundredth.
+        // Sums of Gaussian amplitudes have 2; the contrast is the root of this less 1. 4.5 standard
+        // errors of 20 seeds: two such tests fail once in 2,000 runs. The spline that stands for
+        // the pulse adds a hundredth.
         CHECK(std::fabs(mean(means) - 1.0) < 4.5 * standard_error(means));
-        CHECK(std::fabs(mean(seconds) - 2.058) < 4.5 * standard_error(seconds) + 0.01 * 2.058);
+        CHECK(std::fabs(mean(seconds) - 2.0) < 4.5 * standard_error(seconds) + 0.02);
+    }
+
+    // Given their places, amplitudes of scatterers are Gaussian, so the contrast of speckle is
+    // sqrt(1 + 2 v), v the variance of the power that a resolution cell holds over its square.
+    TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
+        constexpr double resolution_m = 0.015;
+        const double width = radians(0.6);
+        const ScattererCells cells = scatterer_cells(resolution_m, width, 0.3, 1e-3);
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> unit(0.0, 1.0);
+        for (const double range : {0.4, 0.7, 1.1, 1.6, 2.3, 3.3, 5.0, 9.0, 20.0}) {
+            CAPTURE(range);
+            const double across_m = width * range;
+            const double half_m = 3.0 * std::max(across_m, resolution_m);
+            const Samples ground = patches({range, 0.0, -0.15 * range}, {1.0, 0.0, 0.0},
+                                           {0.0, 1.0, 0.0}, half_m, half_m, 0.25 * half_m, {});
+            std::vector<double> powers;
+            for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+                const double turn = pi * unit(random);
+                SonarInScene sonar{
+                    Eigen::AngleAxisf(static_cast<float>(turn), Eigen::Vector3f::UnitZ())
+                        .toRotationMatrix(),
+                    {unit(random), unit(random), unit(random)}};
+                Scatterers block;
+                double power = 0.0;
+                find_scatterers(ground.items, ViewShape::fan, cells, sonar, {seed, 1}, block,
+                                [&](const Scatterers& found) {
+                                    const PatchBlock& p = found.pieces;
+                                    for (int k = 0; k < p.count; ++k) {
+                                        const double x = (p.x[k] - range) / resolution_m;
+                                        const double y = p.y[k] / across_m;
+                                        // Half of the power at half a resolution cell.
+                                        power += p.area_m2[k] * std::exp2(-4.0 * (x * x + y * y));
+                                    }
+                                });
+                powers.push_back(power);
+            }
+            const double expected = pi / (4.0 * std::log(2.0)) * resolution_m * across_m;
+            CHECK(std::fabs(mean(powers) - expected) <
+                  4.0 * standard_error(powers) + 0.02 * expected);
+            const double deviation = standard_error(powers) * std::sqrt(1.0 * powers.size());
+            const double v = std::pow(deviation / mean(powers), 2.0);
+            CHECK(std::sqrt(1.0 + 2.0 * v) < 1.03);
+        }
     }
 }

@@ -15,6 +15,10 @@ namespace {
 // Greatest length of a resolution cell on the surface, in pulse lengths.
 constexpr float longest_on_surface = 4.0F;
 
+// Few large cells among small ones make the power uneven: from this area of a small cell on, over
+// the wanted one, all are small.
+constexpr float least_split_areas = 0.5F;
+
 template <class T>
 using Batch = CellFootprints::Array<T>;
 
@@ -50,7 +54,7 @@ struct Surfaces {
         : count(static_cast<int>(samples.size())) {
         for (int k = 0; k < count; ++k) {
             const Sample& sample = samples[k];
-            place.set(k, sample.position);
+            place.set(k, sample.position - (sample.wedge / 3.0F) * sample.edge_u);
             u.set(k, sample.edge_u);
             v.set(k, sample.edge_v);
             height[k] = sample.height_m;
@@ -102,10 +106,11 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
         const float ratio = std::max(1.0F, wanted_edge2(cells, range, sine) * per_area);
         // The exponent of a ratio of areas is twice that of the edges.
         const std::int32_t level = ((std::bit_cast<std::int32_t>(ratio) >> 23) - 127) >> 1;
-        const float unsplit_share =
-            (4.0F / 3.0F) * (1.0F - power_of_two(2 * std::min(level, top)) / ratio);
+        const float split_areas = power_of_two(2 * std::min(level, top)) / ratio;
         out.level[k] = std::min(level, top);
-        out.unsplit_share[k] = level < top ? unsplit_share : 0.0F;
+        out.unsplit_share[k] = level < top && split_areas < least_split_areas
+                                   ? (4.0F / 3.0F) * (1.0F - split_areas)
+                                   : 0.0F;
         out.fine_m[k] = cells.min_edge_m * power_of_two(out.level[k]);
     }
 }
@@ -209,7 +214,8 @@ void find_footprints(std::span<const Sample> samples, ViewShape shape, const Sca
     out.count = surfaces.count;
     for (int k = 0; k < out.count; ++k) {
         const Taper taper = taper_of(samples[k], shape);
-        out.taper_u[k] = taper.u;
+        // Where the view's taper adds to a triangle's, its end has no width.
+        out.taper_u[k] = std::clamp(taper.u + samples[k].wedge, -1.0F, 1.0F);
         out.taper_v[k] = taper.v;
     }
     find_levels(surfaces, cells, out);

@@ -22,43 +22,43 @@ Ints8 hash8(Ints8 h) {
     return h ^ (h >> 16);
 }
 
-/// Random bits of a level's cells, seen along an axis, by their numbers and a key.
+/// Random bits of the larger cells above a level, seen along an axis, by their numbers and a key.
 Ints8 cell_bits(Ints8 i, Ints8 j, std::int32_t level, std::int32_t axis, std::uint32_t key) {
     const auto plane = static_cast<std::uint32_t>(4 * level + axis + 1) * 0x9E3779B1U;
     const Ints8 cell = i * Ints8(0x85EBCA6BU) + j * Ints8(0xC2B2AE35U) + Ints8(plane);
     return hash8(cell ^ Ints8(key));
 }
 
-/// Position of a cell's point along the first and the second axis, in edges, from its random bits.
-Floats8 point_along_first(Ints8 bits) {
+/// The place of the points of a column's cells along the row, or of a row's along the column, in
+/// edges: `line` is the number of that column or row, `along` 0 for columns and 1 for rows. Points
+/// that share it are evenly spaced, so that sums over them hardly vary (docs/calibrated.md,
+/// section 2), and yet the place of each is uniform in its cell.
+Floats8 place_on_line(Ints8 line, std::int32_t level, std::int32_t axis, int along,
+                      std::uint32_t key) {
+    const auto plane = static_cast<std::uint32_t>(8 * level + 2 * axis + along + 1) * 0x9E3779B1U;
+    const Ints8 bits = hash8((line * Ints8(0x85EBCA6BU) + Ints8(plane)) ^ Ints8(key));
     return to_floats(bits & Ints8(0xFFFFU)) * 0x1p-16F;
-}
-Floats8 point_along_second(Ints8 bits) {
-    return to_floats(bits >> 16) * 0x1p-16F;
 }
 
 /// Cells under the samples of a batch. Column and row count from the base of their sample's
 /// footprint, along its two axes.
 struct CellList {
     std::vector<std::int32_t> column, row;
-    std::vector<std::int32_t> bits;  ///< random, from the cell
     int count = 0;
     std::array<int, CellFootprints::most + 1> begin{};  ///< the first cell of each sample
 
     CellList() { grow(); }
     void grow() {
-        const std::size_t size = std::max<std::size_t>(2 * bits.size(), 1024);
+        const std::size_t size = std::max<std::size_t>(2 * column.size(), 1024);
         column.resize(size);
         row.resize(size);
-        bits.resize(size);
     }
-    void add(unsigned mask, Ints8 columns, Ints8 rows, Ints8 random) {
+    void add(unsigned mask, Ints8 columns, Ints8 rows) {
         // Eight lanes are written, and may be read from any cell on.
-        if (count + 2 * lanes > std::ssize(bits)) grow();
+        if (count + 2 * lanes > std::ssize(column)) grow();
         const ToFront front(mask);
         front(columns).store(column.data() + count);
         front(rows).store(row.data() + count);
-        front(random).store(bits.data() + count);
         count += front.count;
     }
 };
@@ -81,13 +81,10 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
         while (const unsigned in_row = is_row & (end > inner).bits()) {
             const Ints8 column = along_first ? outer : inner;
             const Ints8 row = along_first ? inner : outer;
-            const Ints8 bits =
-                cell_bits(base_i + column, base_j + row, p.level[k] + 1, p.axis[k], key);
-            // Other bits than those that place the cell's point.
-            const Ints8 other_bits = bits * Ints8(0x9E3779B1U);
-            const unsigned is_whole = (first_split > (other_bits >> 8)).bits();
-            whole.add(in_row & is_whole, column, row, bits);
-            split.add(in_row & ~is_whole, column, row, bits);
+            const Ints8 bits = cell_bits(base_i + column, base_j + row, p.level[k], p.axis[k], key);
+            const unsigned is_whole = (first_split > (bits >> 8)).bits();
+            whole.add(in_row & is_whole, column, row);
+            split.add(in_row & ~is_whole, column, row);
             inner = inner + 1;
         }
     }
@@ -151,7 +148,7 @@ class Search {
     void emit_coarse(int k);
     void emit_fine(int k);
     template <int size>
-    int keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to);
+    int keep(int k, Ints8 column, Ints8 row, unsigned mask, int to);
     void complete(const Run& run);
     void complete_runs() {
         for (int r = 0; r < run_count_; ++r)
@@ -167,9 +164,9 @@ class Search {
     CellFootprints footprints_;
     CellList whole_, split_;  ///< larger cells
     // For each scatterer of the block: its position on the sample, in half edges; its cell's size
-    // and numbers, from the base of the sample's footprint; and the random bits of the cell.
-    PatchBlock::Array<float> s_{}, t_{}, size_{};
-    PatchBlock::Array<std::int32_t> column_{}, row_{}, bits_{};
+    // and numbers, from the base of the sample's footprint; and its place in the cell, in edges.
+    PatchBlock::Array<float> s_{}, t_{}, size_{}, along_first_{}, along_second_{};
+    PatchBlock::Array<std::int32_t> column_{}, row_{};
     std::array<Run, CellFootprints::most> runs_{};  ///< not completed yet
     int run_count_ = 0;
     int completed_ = 0;  ///< number of complete scatterers in the block
@@ -181,10 +178,9 @@ void Search::emit_coarse(int k) {
         const int stop = std::min(end, at + room(k));
         int count = block_.pieces.count;
         for (; at < stop; at += lanes) {
-            count +=
-                keep<2>(k, Ints8::load(whole_.column.data() + at),
-                        Ints8::load(whole_.row.data() + at), Ints8::load(whole_.bits.data() + at),
-                        0xFFU >> std::max(0, at + lanes - stop), count);
+            count += keep<2>(k, Ints8::load(whole_.column.data() + at),
+                             Ints8::load(whole_.row.data() + at),
+                             0xFFU >> std::max(0, at + lanes - stop), count);
         }
         at = stop;
         block_.pieces.count = count;
@@ -193,7 +189,6 @@ void Search::emit_coarse(int k) {
 
 /// Two cells at a time, four parts each.
 void Search::emit_fine(int k) {
-    const CellFootprints& p = footprints_;
     const Ints8 right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
     const Ints8 up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
     const int end = split_.begin[k + 1];
@@ -205,10 +200,7 @@ void Search::emit_fine(int k) {
             const Ints8 rows = two_by_four(split_.row.data() + at);
             const Ints8 column = columns + columns + right;
             const Ints8 row = rows + rows + up;
-            const Ints8 bits =
-                cell_bits(Ints8(p.base_first[k]) + column, Ints8(p.base_second[k]) + row,
-                          p.level[k], p.axis[k], key_);
-            count += keep<1>(k, column, row, bits, at + 1 < stop ? 0xFFU : 0x0FU, count);
+            count += keep<1>(k, column, row, at + 1 < stop ? 0xFFU : 0x0FU, count);
         }
         at = stop;
         block_.pieces.count = count;
@@ -218,11 +210,16 @@ void Search::emit_fine(int k) {
 /// Keeps the cells, of 8, whose points lie on the sample: writes them from place `to` of the block
 /// on and returns their number. A cell has `size` edges of a smaller cell.
 template <int size>
-int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to) {
+int Search::keep(int k, Ints8 column, Ints8 row, unsigned mask, int to) {
     const CellFootprints& p = footprints_;
     constexpr auto edges = static_cast<float>(size);
-    const Floats8 x = fms(edges, to_floats(column) + point_along_first(bits), p.first[k]);
-    const Floats8 y = fms(edges, to_floats(row) + point_along_second(bits), p.second[k]);
+    const std::int32_t level = p.level[k] + size - 1;
+    const Floats8 along_first =
+        place_on_line(Ints8(p.base_second[k] / size) + row, level, p.axis[k], 0, key_);
+    const Floats8 along_second =
+        place_on_line(Ints8(p.base_first[k] / size) + column, level, p.axis[k], 1, key_);
+    const Floats8 x = fms(edges, to_floats(column) + along_first, p.first[k]);
+    const Floats8 y = fms(edges, to_floats(row) + along_second, p.second[k]);
     const Floats8 s = fma(x, p.s_x[k], y * p.s_y[k]);
     const Floats8 t = fma(x, p.t_x[k], y * p.t_y[k]);
     const Floats8 half_u = fma(t, p.taper_v[k], 1.0F);
@@ -234,7 +231,8 @@ int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int 
     front(t).store(t_.data() + to);
     front(column).store(column_.data() + to);
     front(row).store(row_.data() + to);
-    front(bits).store(bits_.data() + to);
+    front(along_first).store(along_first_.data() + to);
+    front(along_second).store(along_second_.data() + to);
     Floats8(edges).store(size_.data() + to);
     return front.count;
 }
@@ -284,9 +282,8 @@ void Search::complete(const Run& run) {
         number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
         // The phase follows from the scatterer's own place. With the phase of another place in the
         // cell, speckle would decorrelate faster than the aperture allows.
-        const Ints8 bits = Ints8::load(bits_.data() + k);
-        point_along_first(bits).store(block_.within[first].data() + k);
-        point_along_second(bits).store(block_.within[second].data() + k);
+        Floats8::load(along_first_.data() + k).store(block_.within[first].data() + k);
+        Floats8::load(along_second_.data() + k).store(block_.within[second].data() + k);
         Floats8(0.5F).store(block_.within[axis].data() + k);
     }
     completed_ = run.end;

@@ -13,8 +13,8 @@ namespace {
 using Floats = PatchBlock::Array<float>;
 using Words = PatchBlock::Array<std::uint32_t>;
 
-// Greatest length of cells as a share of the resolution: longer ones make speckle too long.
-constexpr double max_of_resolution = 0.75;
+// Greatest length of cells as a share of the resolution, at which contrast is below 1.02.
+constexpr double max_of_resolution = 1.25;
 
 // Scatterers in a resolution cell: amplitudes are about Rayleigh distributed.
 constexpr double scatterers_in_cell = 4.0;

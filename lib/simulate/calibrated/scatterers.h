@@ -23,8 +23,8 @@ struct ScattererCells {
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
 };
 
-/// Four cells to a resolution cell of `resolution_m` in range and `width_rad` across, but no longer
-/// in range than the resolution.
+/// At least four cells to a resolution cell of `resolution_m` in range and `width_rad` across, but no longer
+/// in range than 1.25 times the resolution.
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
                                double wavelength_m);
 

@@ -35,6 +35,10 @@ struct Sample {
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
+    /// The footprint of a slanted piece is a trapezoid about its centroid, `position`: the
+    /// difference of the lengths of `edge_v` at the end and at the start of `edge_u`, over their
+    /// sum.
+    float wedge = 0.0F;
     /// Factor on the power that the material sends back, from a map of the scene
     /// (simulate/trace/apply_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
