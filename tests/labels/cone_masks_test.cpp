@@ -59,14 +59,16 @@ std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& so
             const auto at = [](int i, int n) {
                 return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(n) - 1.0F;
             };
-            const Eigen::Vector3f p = sample.position + at(k / columns, rows) * sample.edge_u +
-                                      at(k % columns, columns) * sample.edge_v;
+            const float u = at(k / columns, rows);
+            const float width = 1.0F + sample.wedge * u;
+            const Eigen::Vector3f p = middle_of(sample, rows) + u * sample.edge_u +
+                                      width * at(k % columns, columns) * sample.edge_v;
             const double r = p.norm();
             const int beam = beam_at(sonar, p.y() / r);
             if (beam < 0 || r < view.range_min_m || r >= view.range_max_m) continue;
             const double sine = sample.height_m / r;
             energies[static_cast<std::size_t>(bin_at(sonar, r)) * view.beams + beam] +=
-                sample.area_m2 * sine * sine / (r * r * r * r * rows * columns);
+                width * sample.area_m2 * sine * sine / (r * r * r * r * rows * columns);
         }
     }
     return energies;

@@ -213,9 +213,8 @@ void find_footprints(std::span<const Sample> samples, ViewShape shape, const Sca
     const Surfaces surfaces(samples, sonar.R_world_sensor);
     out.count = surfaces.count;
     for (int k = 0; k < out.count; ++k) {
-        const Taper taper = taper_of(samples[k], shape);
-        // Where the view's taper adds to a triangle's, its end has no width.
-        out.taper_u[k] = std::clamp(taper.u + samples[k].wedge, -1.0F, 1.0F);
+        const Taper taper = trapezoid_of(samples[k], shape);
+        out.taper_u[k] = taper.u;
         out.taper_v[k] = taper.v;
     }
     find_levels(surfaces, cells, out);

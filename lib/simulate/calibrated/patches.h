@@ -90,24 +90,33 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
         const EdgeExtents v = extents_of(sample.edge_v, direction);
         const int by_u = patches_along(u, range, limits);
         const int by_v = patches_along(v, range, limits);
-        const HalfExtents half = half_extents(u, v, range, by_u, by_v);
         // Rows are long, since they are written in whole vectors.
         const int rows = std::min(by_u, by_v);
         const int columns = std::max(by_u, by_v);
         const Eigen::Vector3f& across = by_u > by_v ? sample.edge_v : sample.edge_u;
         const Eigen::Vector3f& along = by_u > by_v ? sample.edge_u : sample.edge_v;
         const float area = sample.area_m2 * sample.strength / static_cast<float>(rows * columns);
-        const Taper taper = taper_of(sample, shape);
+        const Taper taper = trapezoid_of(sample, shape);
         const float taper_across = by_u > by_v ? taper.v : taper.u;
         const float taper_along = by_u > by_v ? taper.u : taper.v;
         const float area_step = area * taper_along * 2.0F / static_cast<float>(columns);
-        const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * across;
-        const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * along;
+        const HalfExtents half = half_extents(u, v, range, by_u, by_v);
+        const HalfExtents half_of_v = half_extents({}, v, range, by_u, by_v);
+        const Eigen::Vector3f centre = middle_of(sample, by_u);
         for (int i = 0; i < rows; ++i) {
-            const Eigen::Vector3f row =
-                sample.position + (static_cast<float>(i) + 0.5F) * step_u - across - along;
-            const float share = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows);
-            const float area_of_row = area * (1.0F + taper_across * (share - 1.0F) - taper_along);
+            const float place =
+                (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F;
+            // A row along `edge_v` is longer where the wedge is; one along `edge_u` is turned.
+            const float longer = sample.wedge * place;
+            // The same of the extents of pieces along `edge_v`: at the row's start, and by column.
+            const float at_start = by_u > by_v ? -sample.wedge : longer;
+            const float by_column =
+                by_u > by_v ? sample.wedge * 2.0F / static_cast<float>(columns) : 0.0F;
+            const Eigen::Vector3f half_row = by_u > by_v ? Eigen::Vector3f(along + longer * across)
+                                                         : Eigen::Vector3f((1.0F + longer) * along);
+            const Eigen::Vector3f row = centre + place * across - half_row;
+            const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * half_row;
+            const float area_of_row = area * (1.0F + taper_across * place - taper_along);
             for (int first = 0; first < columns; first += PatchBlock::spare) {
                 if (pieces.count > PatchBlock::most - PatchBlock::spare) {
                     use(pieces);
@@ -125,8 +134,10 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
                 along_row(pieces.z, row.z(), step_v.z());
                 along_row(pieces.area_m2, area_of_row, area_step);
                 std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
-                std::fill_n(pieces.half_range_m.data() + at, PatchBlock::spare, half.range_m);
-                std::fill_n(pieces.half_sine.data() + at, PatchBlock::spare, half.sine);
+                along_row(pieces.half_range_m, half.range_m + at_start * half_of_v.range_m,
+                          by_column * half_of_v.range_m);
+                along_row(pieces.half_sine, half.sine + at_start * half_of_v.sine,
+                          by_column * half_of_v.sine);
                 std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
                 std::fill_n(pieces.sample.data() + at, PatchBlock::spare, number);
                 pieces.count += std::min(columns - first, PatchBlock::spare);

@@ -122,8 +122,11 @@ class SurfaceEchoFinder {
             int last_piece = -1;
             for (const auto& [beam, k, power] : received(pieces, echoes_, nullptr)) {
                 const Sample& sample = samples[pieces.sample[k]];
-                blocks_.add(static_cast<std::uint32_t>(beam), echoes_.range_m[k],
-                            pieces.half_range_m[k], power, 1.0F, &sample);
+                const float half_m = pieces.half_range_m[k];
+                const auto [before, after] = extent_of_piece(sample);
+                blocks_.add(static_cast<std::uint32_t>(beam),
+                            echoes_.range_m[k] + 0.5F * (after - before) * half_m,
+                            0.5F * (after + before) * half_m, power, 1.0F, &sample);
                 if (!received_.empty()) note_received(sample);
                 if (patches_) add_echo(beam, power, pieces, k, sample, last_piece);
             }
@@ -185,16 +188,32 @@ class SurfaceEchoFinder {
         patch_echoes_.push_back({static_cast<std::uint32_t>(beam), power});
     }
 
+    /// Pieces of a wedge that is cut along `edge_u` are nearly parallelograms.
+    WedgeExtent extent_of_piece(const Sample& sample) const {
+        if (sample.wedge == 0.0F) return {};
+        const Arrival at = arrival_of(sample.position);
+        const EdgeExtents u = extents_of(sample.edge_u, at.direction);
+        if (patches_along(u, at.range_m, limits_) > 1) return {};
+        return wedge_extent(sample.wedge, u.depth, at.direction.dot(sample.edge_v));
+    }
+
     EchoPatch patch_of(const PatchBlock& pieces, int k, const Sample& sample) const {
         const Arrival at = arrival_of(sample.position);
-        const auto part_of = [&](const Eigen::Vector3f& edge) -> Eigen::Vector3f {
-            const int parts = patches_along(extents_of(edge, at.direction), at.range_m, limits_);
-            return edge / static_cast<float>(parts);
+        const auto parts_of = [&](const Eigen::Vector3f& edge) {
+            return static_cast<float>(
+                patches_along(extents_of(edge, at.direction), at.range_m, limits_));
         };
+        const float by_u = parts_of(sample.edge_u);
+        const float by_v = parts_of(sample.edge_v);
+        // The parts of a wedge are as long as their shares of its area say.
+        const float length = sample.wedge == 0.0F ? 1.0F
+                                                  : pieces.area_m2[k] * by_u * by_v /
+                                                        (sample.area_m2 * sample.strength);
         return {.position = {pieces.x[k], pieces.y[k], pieces.z[k]},
-                .edge_u = part_of(sample.edge_u),
-                .edge_v = part_of(sample.edge_v),
-                .sample = &sample};
+                .edge_u = sample.edge_u / by_u,
+                .edge_v = length / by_v * sample.edge_v,
+                .sample = &sample,
+                .wedge = sample.wedge / by_u};
     }
 
     const CalibratedModel& model_;

@@ -1,6 +1,7 @@
 #include "simulate/labels/range_path.h"
 
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/taper.h"
 #include "simulate/visibility/range_extent.h"
 
 namespace sonarsim {
@@ -16,10 +17,11 @@ RangePath range_path(const EchoPatch& patch) {
     if (depth_2 > 0.0) {
         path = (u * patch.edge_u + v * patch.edge_v) / static_cast<float>(depth_2);
     }
+    const auto [before, after] = wedge_extent(patch.wedge, u, v);
     return {.range_m = range,
-            .before_m = along_u.before + along_v.before,
-            .after_m = along_u.after + along_v.after,
-            .depth_m = std::fabs(u) + std::fabs(v),
+            .before_m = before * (along_u.before + along_v.before),
+            .after_m = after * (along_u.after + along_v.after),
+            .depth_m = std::max(before, after) * (std::fabs(u) + std::fabs(v)),
             .bend = path.squaredNorm(),
             .per_range = path};
 }

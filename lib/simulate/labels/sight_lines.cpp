@@ -6,6 +6,7 @@
 
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"
+#include "simulate/trace/taper.h"
 
 namespace sonarsim {
 
@@ -87,15 +88,17 @@ std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams
         const int columns = parts_of(sample.edge_v, line, cones);
         const float share_u = 1.0F / static_cast<float>(rows);
         const float share_v = 1.0F / static_cast<float>(columns);
+        const Eigen::Vector3f middle = middle_of(sample, rows);
         for (int i = 0; i < rows; ++i) {
             const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
+            const float width = 1.0F + sample.wedge * u;
             for (int j = 0; j < columns; ++j) {
                 const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
                 const Arrival place =
-                    arrival_of(sample.position + u * sample.edge_u + v * sample.edge_v);
+                    arrival_of(middle + u * sample.edge_u + v * width * sample.edge_v);
                 const int beam = cones.beam(place.direction.y());
                 if (beam < 0) continue;
-                const SightLine part = line_behind(sample, place, share_u, share_v, beam);
+                const SightLine part = line_behind(sample, place, share_u, share_v * width, beam);
                 if (keep(part)) out.push_back(part);
             }
         }

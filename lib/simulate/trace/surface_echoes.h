@@ -68,6 +68,7 @@ struct EchoPatch {
     Eigen::Vector3f position, edge_u, edge_v;    ///< as in Sample
     std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
     const Sample* sample;
+    float wedge = 0.0F;  ///< as in Sample
 };
 
 /// The echoes and surface that labels need.

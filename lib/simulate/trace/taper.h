@@ -32,4 +32,36 @@ inline Taper taper_of(const Sample& sample, std::optional<ViewShape> shape) {
     return {u / most, v / most};
 }
 
+/// The taper of a footprint with its wedge. Where both narrow one end, it has no width there.
+inline Taper trapezoid_of(const Sample& sample, std::optional<ViewShape> shape) {
+    Taper out = taper_of(sample, shape);
+    out.u = std::clamp(out.u + sample.wedge, -1.0F, 1.0F);
+    return out;
+}
+
+/// The middle about which a footprint is cut into `parts` along `edge_u`: the wedge's pieces have
+/// its centroid.
+inline Eigen::Vector3f middle_of(const Sample& sample, int parts) {
+    const float thinner = 1.0F / static_cast<float>(parts);
+    return sample.position - sample.wedge / 3.0F * (1.0F - thinner * thinner) * sample.edge_u;
+}
+
+/// The extents of a footprint on either side of its centroid along a direction on which its half
+/// edges have the components u and v, over |u| + |v|.
+struct WedgeExtent {
+    float before = 1.0F, after = 1.0F;
+};
+
+/// The corners of a wedge lie (+-1 - wedge / 3) u +- (1 +- wedge) v from its centroid.
+inline WedgeExtent wedge_extent(float wedge, float u, float v) {
+    const float depth = std::fabs(u) + std::fabs(v);
+    if (wedge == 0.0F || !(depth > 0.0F)) return {};
+    const auto reach = [&](float along) {
+        return std::max(along * (1.0F - wedge / 3.0F) + (1.0F + wedge) * std::fabs(v),
+                        -along * (1.0F + wedge / 3.0F) + (1.0F - wedge) * std::fabs(v)) /
+               depth;
+    };
+    return {reach(-u), reach(u)};
+}
+
 }  // namespace sonarsim

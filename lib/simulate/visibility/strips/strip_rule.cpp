@@ -22,10 +22,9 @@ constexpr float side_columns = 13.0F;
 constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
-// Energies of the slanted pieces of ground add up to an even surface, whichever bins each of them
-// is in; a mean of a bin needs the area of each. Wedges of one bin at most made 2.4 times as many
-// samples.
-constexpr float wedge_of_energies = 4.0F;
+// Where energies add, wedges are as long as the pieces of labels. Longer ones leave holes in
+// shadows.
+constexpr float wedge_of_energies = 8.0F;
 
 }  // namespace
 
@@ -42,15 +41,15 @@ StripRule strip_rule(const View& view) {
     rule.sag_m = 0.09F * finer * bin_m;
     rule.wedge_m = std::max(finer, 0.5F) * bin_m;
     rule.taper = 0.35F;
+    rule.along_rad = std::numeric_limits<float>::max();
     if (view.energies_add) {
+        // Energies follow the trapezoids of samples; a mean of a bin takes parallelograms.
         rule.wedge_m *= wedge_of_energies;
         rule.taper = 1.0F;  // any
-    }
-    rule.along_rad = std::numeric_limits<float>::max();
-    if (view.energies_add)
         rule.along_rad = static_cast<float>(view.shape == ViewShape::port_starboard
                                                 ? side_along_rad
                                                 : view.elevation_rad / samples_along);
+    }
     return rule;
 }
 
