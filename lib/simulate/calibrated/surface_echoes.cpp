@@ -120,13 +120,16 @@ class SurfaceEchoFinder {
             if (kind_of(kind).is_surface)
                 strengths_.apply(samples, pieces, &limits_, echoes_.power);
             int last_piece = -1;
+            const Sample* last_sample = nullptr;
+            WedgeExtent extent;
             for (const auto& [beam, k, power] : received(pieces, echoes_, nullptr)) {
                 const Sample& sample = samples[pieces.sample[k]];
                 const float half_m = pieces.half_range_m[k];
-                const auto [before, after] = extent_of_piece(sample);
+                if (&sample != last_sample) extent = extent_of_piece(sample);
+                last_sample = &sample;
                 blocks_.add(static_cast<std::uint32_t>(beam),
-                            echoes_.range_m[k] + 0.5F * (after - before) * half_m,
-                            0.5F * (after + before) * half_m, power, 1.0F, &sample);
+                            echoes_.range_m[k] + 0.5F * (extent.after - extent.before) * half_m,
+                            0.5F * (extent.after + extent.before) * half_m, power, 1.0F, &sample);
                 if (!received_.empty()) note_received(sample);
                 if (patches_) add_echo(beam, power, pieces, k, sample, last_piece);
             }

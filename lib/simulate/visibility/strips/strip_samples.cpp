@@ -230,7 +230,8 @@ void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, b
     // The centroid lies towards the longer side.
     const float near_length = (quad.near_high - quad.near_low).norm();
     const float far_length = (quad.far_high - quad.far_low).norm();
-    const float wedge = (far_length - near_length) / (near_length + far_length + least_length);
+    const float shift =
+        (far_length - near_length) / (3.0F * (near_length + far_length) + least_length);
     const Vector3f low = R_sensor_frame_ * (0.5F * (quad.near_low + quad.far_low));
     const Vector3f along = R_sensor_frame_ * (0.5F * (quad.near_high + quad.far_high)) - low;
     const Vector3f low_half = R_sensor_frame_ * (0.5F * (quad.far_low - quad.near_low));
@@ -242,7 +243,7 @@ void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, b
         const Vector3f half = low_half + at * (high_half - low_half);
         const float width =
             widths > 0.0F ? 2.0F * (low_width + (high_width - low_width) * at) / widths : 1.0F;
-        out_.push_back({.position = low + at * along + (wedge / 3.0F) * half,
+        out_.push_back({.position = low + at * along + shift * half,
                         .edge_u = half,
                         .edge_v = 0.5F * share * along,
                         .normal = normal,
@@ -250,7 +251,7 @@ void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, b
                         .area_m2 = quad.area_m2 * share * width,
                         .material = facet.material,
                         .instance = facet.instance,
-                        .wedge = wedge});
+                        .wedge = 3.0F * shift});
     }
 }
 
