@@ -22,7 +22,7 @@ constexpr float side_columns = 13.0F;
 constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
-// Where energies add, wedges are as long as the pieces of labels. Longer ones leave holes in
+// Wedges of energies are as long as the pieces of labels. Longer ones leave holes in
 // shadows.
 constexpr float wedge_of_energies = 8.0F;
 
