@@ -7,10 +7,12 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "output/format/png.h"
 #include "run/checks/find_warnings.h"
+#include "run/preview/scene_gltf.h"
 
 namespace sonarsim {
 
@@ -19,7 +21,8 @@ namespace {
 struct PreviewArguments {
     MissionOptions mission;
     std::optional<std::uint32_t> ping;
-    std::filesystem::path out;  ///< "": NAME_preview.png here
+    std::filesystem::path out;   ///< "": NAME_preview.png here
+    std::filesystem::path gltf;  ///< "": none
     LogOptions log;
 };
 
@@ -49,8 +52,12 @@ int preview(const PreviewArguments& arguments) {
     const std::filesystem::path out = arguments.out.empty()
                                           ? std::filesystem::path(mission.name + "_preview.png")
                                           : arguments.out;
-    const Picture picture = draw_preview(mission, assembly, pose);
+    const auto [picture, beams] = draw_preview(mission, assembly, pose);
     write_picture(out, picture.pixels, picture.width);
+    if (!arguments.gltf.empty()) {
+        write_file(arguments.gltf, scene_gltf(assembly, pose, beams));
+        spdlog::info("{}: scene, trajectory and views", arguments.gltf.string());
+    }
     spdlog::info("{}: ping {} of {}", out.string(), pose, mission.name);
     return exit_done;
 }
@@ -71,6 +78,10 @@ void add_preview(CLI::App& app, int& exit_code) {
         .add_option("--out", arguments->out,
                     "The picture (default: NAME_preview.png in the current folder)")
         ->type_name("FILE.png");
+    command
+        .add_option("--gltf", arguments->gltf,
+                    "Writes the scene, the trajectory and the views of the sonars, for any viewer")
+        ->type_name("FILE.glb");
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = preview(*arguments); });
 }

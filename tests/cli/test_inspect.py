@@ -178,6 +178,19 @@ class Preview(Sandbox):
                             "--ping 6: the mission has the pings 0 to 5")
         self.assertFalse((self.folder / "none.png").exists())
 
+    def test_scene_for_a_viewer(self):
+        """Turned back to z up, the file has the mission's own scene, and lines, which inspect leaves out."""
+        self.write("mission.yaml", ALL_FILES)
+        self.succeeds("preview", "mission.yaml", "--gltf", "scene.glb")
+        of_mission, of_file = (json.loads(self.succeeds("inspect", name, "--json").stdout)
+                               for name in ("box.gltf", "scene.glb"))
+        for key in ("triangles", "bounds_min_m", "bounds_max_m"):
+            self.assertEqual(of_file[key], of_mission[key])
+        data = (self.folder / "scene.glb").read_bytes()
+        names = [node["name"] for node in json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])["nodes"]]
+        self.assertIn("trajectory", names)
+        self.assertEqual(sum(name.startswith("view of ") for name in names), 4)
+
 
 class Report(Sandbox):
     """Its figures: tests/report."""

@@ -106,7 +106,7 @@ Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
 
 }  // namespace
 
-Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose) {
+Preview draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose) {
     const Trajectory& trajectory = assembly.trajectory;
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(assembly.scene, settings_of_preview(mission));
@@ -134,7 +134,7 @@ Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     }
     tiles.push_back({"plan: x to the right, y up, colours: height", ink,
                      draw_plan(moment, tile_width, tile_height)});
-    return arrange(head_text(mission, trajectory, pose), tiles);
+    return {arrange(head_text(mission, trajectory, pose), tiles), std::move(moment.beams)};
 }
 
 }  // namespace sonarsim
