@@ -23,14 +23,14 @@ MapPlace place_of(const Seabed& bed) {
 
 Json list_materials(const Seabed& bed) {
     std::vector<std::size_t> counts(bed.materials.size(), 0);
-    for (const std::uint8_t sediment : bed.sediments)
+    for (const std::uint8_t sediment : bed.sediments.cells)
         ++counts[sediment];
     Json out = Json::array();
     for (std::size_t i = 0; i < bed.materials.size(); ++i) {
         out.push_back({{"value", i},
                        {"material", bed.materials[i]},
                        {"share", static_cast<double>(counts[i]) /
-                                     static_cast<double>(bed.sediments.size())}});
+                                     static_cast<double>(bed.sediments.cells.size())}});
     }
     return out;
 }
@@ -67,12 +67,10 @@ std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed)
                       {"columns", grid.columns}}},
                     {"materials", list_materials(bed)},
                     {"rocks", list_rocks(bed)}};
-    // A square of the mesh has the material of its north-western height.
     const std::string world_file =
-        fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m, place.west_m + grid.cell_m,
-                    place.north_m - grid.cell_m);
+        fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m, grid.x_m(0), grid.y_m(0));
     return {{seabed_heights_name, geotiff_bytes(bed.heights, grid.columns, place)},
-            {seabed_materials_name, png_bytes(bed.sediments, grid.columns, grid.rows)},
+            {seabed_materials_name, png_bytes(bed.sediments.cells, grid.columns, grid.rows)},
             {seabed_place_name, world_file},
             {seabed_list_name, json_text(list)}};
 }

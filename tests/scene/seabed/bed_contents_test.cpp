@@ -1,6 +1,7 @@
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/placing/bottom.h"
+#include "input/scene/seabed/bed_model.h"
 #include "input/scene/seabed/seabed.h"
 #include "support/statistics.h"
 
@@ -95,34 +96,135 @@ TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of t
     }
 }
 
-TEST_CASE("sediments cover their shares, in patches of their size") {
+TEST_CASE("sediments cover their shares, in patches of all sizes") {
     SeabedRule rule = bare_rule(30.0);
     rule.cell_m = 0.125;
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}, {"gravel", 1.0}};
-    rule.patch_m = 20.0;
+    rule.patch_m = 2.0;
+    constexpr std::array<int, 4> lags{1, 8, 16, 32};  // 0.125, 1, 2 and 4 m
+    std::array<double, 4> products{};
     std::array<double, 3> shares{};
+    double squares = 0.0;
     double crossings = 0.0;
-    double length_m = 0.0;
+    double pairs = 0.0;
     constexpr int beds = 8;
     for (int b = 0; b < beds; ++b) {
         rule.seed = static_cast<std::uint64_t>(b);
         const Seabed bed = make_seabed(rule);
-        for (const std::uint8_t sediment : bed.sediments)
-            shares[sediment] += 1.0 / (beds * static_cast<double>(bed.sediments.size()));
-        for (std::size_t i = 0; i + 1 < bed.sediments.size(); ++i) {
-            const int step = bed.sediments[i + 1] - bed.sediments[i];
+        const std::vector<std::uint8_t>& cells = bed.sediments.cells;
+        const Eigen::Map<const Eigen::ArrayXXf> values(bed.sediments.values.data(),
+                                                       bed.grid.columns, bed.grid.rows);
+        for (const std::uint8_t sediment : cells)
+            shares[sediment] += 1.0 / (beds * static_cast<double>(cells.size()));
+        for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+            const int step = cells[i + 1] - cells[i];
             const bool same_row = (i + 1) % static_cast<std::size_t>(bed.grid.columns) != 0;
             crossings += same_row && step != 0;
         }
-        length_m += bed.grid.rows * (bed.grid.columns - 1) * rule.cell_m;
+        pairs += bed.grid.rows * (bed.grid.columns - 1);
+        squares += static_cast<double>(values.square().mean());
+        for (std::size_t k = 0; k < lags.size(); ++k) {
+            const auto count = values.rows() - lags[k];
+            products[k] +=
+                static_cast<double>((values.topRows(count) * values.bottomRows(count)).mean());
+        }
     }
-    // 8 beds have 900 independent places: 4 deviations of 1.4 and 1.7 %.
-    CHECK(std::abs(shares[0] - 0.25) < 0.058);
-    CHECK(std::abs(shares[1] - 0.5) < 0.067);
-    // Rice: a limit at 0.674 deviations is crossed exp(-0.674^2 / 2) / patch times a metre each
-    // way, 2.68 times as often by the finer waves of the borders.
-    const double expected = 2.0 * 2.0 * 0.797 / 20.0 * 2.68;
-    CHECK(crossings / length_m == test::approx(expected).epsilon(0.12));
+    // 8 beds have some 500 independent places of the longest waves: 4 deviations of 1.9 and 2.2 %.
+    CHECK(std::abs(shares[0] - 0.25) < 0.077);
+    CHECK(std::abs(shares[1] - 0.5) < 0.09);
+    const auto correlation = [&](double lag_m) {
+        double variance = 0.0;
+        double sum = 0.0;
+        for (double wave_m = 16.0; wave_m >= 4.0 * rule.cell_m; wave_m *= 0.5) {
+            const double power = std::pow(std::min(wave_m / rule.patch_m, 1.0), 1.5);
+            variance += power;
+            sum += power * std::exp(-0.5 * std::pow(2.0 * pi * lag_m / wave_m, 2.0));
+        }
+        return sum / variance;
+    };
+    for (std::size_t k = 0; k < lags.size(); ++k) {
+        CAPTURE(lags[k]);
+        CHECK(std::abs(products[k] / squares - correlation(lags[k] * rule.cell_m)) < 0.1);
+    }
+    CHECK(products[2] / squares > 0.1);  // one wavelength would leave 1e-9
+    // Neighbours of the correlation c lie on both sides of 0 with the probability acos(c) / pi, and
+    // of a limit at 0.674 deviations exp(-0.674^2 / 2) times as often.
+    const double expected = 2.0 * 0.797 * std::acos(correlation(rule.cell_m)) / pi;
+    CHECK(crossings / pairs == test::approx(expected).epsilon(0.12));
+}
+
+TEST_CASE("sediments border where their field crosses a limit, and leave the bed's shape") {
+    SeabedRule rule = bare_rule(12.0);
+    rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
+    rule.patch_m = 5.0;
+    const Seabed plain = make_seabed(rule);
+    rule.sediments = {{"mud", 4.0}, {"silt", 1.0}, {"sand", 3.0}, {"gravel", 4.0}};
+    const Seabed bed = make_seabed(rule);
+    REQUIRE(bed.heights == plain.heights);
+    const auto [vertices, corners] = ground_of(bed);
+    const auto vertex = [&](std::uint32_t i) {
+        return Eigen::Vector3d(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
+    };
+    std::array<double, 4> areas{};
+    double volume = 0.0;
+    using Edge = std::pair<std::uint32_t, std::uint32_t>;
+    std::map<Edge, std::size_t> edges;  // from, to; its sediment
+    for (std::size_t m = 0; m < corners.size(); ++m) {
+        for (std::size_t i = 0; i < corners[m].size(); i += 3) {
+            const std::uint32_t* c = &corners[m][i];
+            const Eigen::Vector3d up =
+                (vertex(c[1]) - vertex(c[0])).cross(vertex(c[2]) - vertex(c[0]));
+            CHECK(up.z() < -1e-4);  // rows go south
+            areas[m] -= 0.5 * up.z();
+            volume -= up.z() * (vertex(c[0]) + vertex(c[1]) + vertex(c[2])).z() / 6.0;
+            for (const Edge& edge : {Edge(c[0], c[1]), Edge(c[1], c[2]), Edge(c[2], c[0])})
+                CHECK(edges.emplace(edge, m).second);
+        }
+    }
+    const double columns = bed.grid.columns - 1;
+    const double rows = bed.grid.rows - 1;
+    double open = 0.0;
+    double border = 0.0;
+    double turned = 0.0;
+    for (const auto& [edge, sediment] : edges) {
+        const Eigen::Vector3d along = vertex(edge.second) - vertex(edge.first);
+        const auto other = edges.find({edge.second, edge.first});
+        if (other == edges.end()) open += along.head<2>().norm();
+        if (other == edges.end() || other->second == sediment) continue;
+        const double eighths = std::atan2(along.y(), along.x()) / (0.25 * pi);
+        border += along.head<2>().norm();
+        if (std::abs(eighths - std::round(eighths)) > 0.1) turned += along.head<2>().norm();
+    }
+    CHECK(open == test::approx(2.0 * (columns + rows)).epsilon(1e-6));
+    CHECK(turned > 0.7 * border);  // 80 % if all directions are as frequent
+    // The same volume below, and the crossings on the surface between heights.
+    const auto [plain_vertices, plain_corners] = ground_of(plain);
+    double plain_volume = 0.0;
+    for (std::size_t i = 0; i < plain_corners[0].size(); i += 3) {
+        for (std::size_t k = 0; k < 3; ++k)
+            plain_volume +=
+                static_cast<double>(plain_vertices[3 * plain_corners[0][i + k] + 2]) / 6.0;
+    }
+    CHECK(volume == test::approx(plain_volume).epsilon(1e-5));
+    // The area in which the linear field is in each band, by 21 places of each triangle.
+    std::array<double, 4> expected{};
+    for (std::size_t i = 0; i < plain_corners[0].size(); i += 3) {
+        const auto at = [&](std::size_t k) {
+            return bed.sediments.values[plain_corners[0][i + k]];
+        };
+        for (int u = 0; u < 6; ++u) {
+            for (int v = 0; u + v < 6; ++v) {
+                const float value = at(0) +
+                                    (static_cast<float>(u) + 1.0F / 3.0F) / 6.0F * (at(1) - at(0)) +
+                                    (static_cast<float>(v) + 1.0F / 3.0F) / 6.0F * (at(2) - at(0));
+                const auto limit = std::ranges::lower_bound(bed.sediments.limits, value);
+                expected[static_cast<std::size_t>(limit - bed.sediments.limits.begin())] +=
+                    0.5 / 21.0;
+            }
+        }
+    }
+    for (std::size_t m = 0; m < areas.size(); ++m)
+        CHECK(areas[m] == test::approx(expected[m]).epsilon(0.01));
 }
 
 TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes another") {
@@ -140,12 +242,12 @@ TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes a
     bool same = true;
     for (int row = 0; row < part.grid.rows; ++row) {
         for (int column = 0; column < part.grid.columns; ++column) {
-            const std::size_t in_whole =
-                whole.grid.cell_at(part.grid.x_m(column), part.grid.y_m(row));
-            const std::size_t in_part =
-                part.grid.cell_at(part.grid.x_m(column), part.grid.y_m(row));
+            const std::int64_t along = part.grid.west + column - whole.grid.west;
+            const std::int64_t down = whole.grid.north - part.grid.north + row;
+            const auto in_whole = static_cast<std::size_t>(down * whole.grid.columns + along);
+            const auto in_part = static_cast<std::size_t>(row * part.grid.columns + column);
             same = same && whole.heights[in_whole] == part.heights[in_part] &&
-                   whole.sediments[in_whole] == part.sediments[in_part];
+                   whole.sediments.cells[in_whole] == part.sediments.cells[in_part];
         }
     }
     CHECK(same);

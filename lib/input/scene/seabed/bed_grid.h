@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,12 +24,6 @@ struct BedGrid {
     /// The centres of a column and of a row, in metres of the bed.
     double x_m(int column) const { return (static_cast<double>(west + column) + 0.5) * cell_m; }
     double y_m(int row) const { return (static_cast<double>(north - row) + 0.5) * cell_m; }
-    /// The index of the cell at a point of the grid.
-    std::size_t cell_at(double x, double y) const {
-        const auto column = static_cast<std::int64_t>(std::floor(x / cell_m)) - west;
-        const auto row = north - static_cast<std::int64_t>(std::floor(y / cell_m));
-        return static_cast<std::size_t>(row * columns + column);
-    }
 };
 
 /// A part of a bed: least x and y, largest x and y, m.
@@ -40,8 +33,7 @@ using BedArea = std::array<double, 4>;
 enum class BedDraw : std::uint32_t {
     roughness = 1,  ///< the octave as `number`
     ripples = 2,
-    sediments = 6,
-    borders = 7,
+    sediments = 6,  ///< the octave as `number`
     rocks = 10,
     rock_shapes = 11,
 };

@@ -1,7 +1,11 @@
 #include "input/scene/seabed/bed_model.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/scene/model_data.h"
@@ -10,39 +14,73 @@ namespace sonarsim {
 
 namespace {
 
-/// Column, row and height of each vertex.
-std::vector<float> vertices_of(const Seabed& bed) {
-    std::vector<float> out;
-    out.reserve(3 * bed.heights.size());
-    std::size_t i = 0;
-    for (int row = 0; row < bed.grid.rows; ++row) {
-        for (int column = 0; column < bed.grid.columns; ++column, ++i) {
-            out.push_back(static_cast<float>(column));
-            out.push_back(static_cast<float>(row));
-            out.push_back(bed.heights[i]);
-        }
-    }
-    return out;
-}
+/// Adds triangles to a ground, and cuts them where the sediments' values, which are linear between
+/// cells, cross a limit.
+class Borders {
+  public:
+    Borders(const BedSediments& bed, BedGround& ground)
+        : bed_(bed), ground_(ground), parts_(ground.corners.size()) {}
 
-/// The triangles of each material. A square between four heights has the material of its
-/// north-western one.
-std::vector<std::vector<std::uint32_t>> corners_by_material(const Seabed& bed) {
-    const auto width = static_cast<std::uint32_t>(bed.grid.columns);
-    const auto height = static_cast<std::uint32_t>(bed.grid.rows);
-    std::vector<std::vector<std::uint32_t>> out(bed.materials.size());
-    for (std::uint32_t row = 0; row + 1 < height; ++row) {
-        for (std::uint32_t column = 0; column + 1 < width; ++column) {
-            const std::uint32_t north_west = row * width + column;
-            const std::uint32_t south_west = north_west + width;
-            std::vector<std::uint32_t>& corners = out[bed.sediments[north_west]];
-            for (const std::uint32_t corner : {north_west, south_west, south_west + 1, north_west,
-                                               south_west + 1, north_west + 1})
-                corners.push_back(corner);
+    void add(const std::array<std::uint32_t, 3>& triangle) {
+        std::array<std::uint8_t, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k)
+            at[k] = bed_.cells[triangle[k]];
+        const auto [low, high] = std::minmax({at[0], at[1], at[2]});
+        if (low == high) {
+            append(low, triangle[0], triangle[1], triangle[2]);
+            return;
+        }
+        // Around the triangle: each corner is in one part, each crossing in the parts on both
+        // sides.
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            parts_[at[k]].push_back(triangle[k]);
+            for (std::size_t part = at[k]; part != at[next];) {
+                const std::size_t other = at[next] > part ? part + 1 : part - 1;
+                const std::uint32_t vertex =
+                    crossing(triangle[k], triangle[next], std::min(part, other));
+                parts_[part].push_back(vertex);
+                parts_[other].push_back(vertex);
+                part = other;
+            }
+        }
+        for (std::size_t part = low; part <= high; ++part) {
+            for (std::size_t k = 2; k < parts_[part].size(); ++k)
+                append(part, parts_[part][0], parts_[part][k - 1], parts_[part][k]);
+            parts_[part].clear();
         }
     }
-    return out;
-}
+
+  private:
+    void append(std::size_t part, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        for (const std::uint32_t corner : {a, b, c})
+            ground_.corners[part].push_back(corner);
+    }
+
+    /// The vertex where an edge crosses a limit, the same for the triangles on both sides.
+    std::uint32_t crossing(std::uint32_t from, std::uint32_t to, std::size_t limit) {
+        if (from > to) std::swap(from, to);
+        std::vector<float>& vertices = ground_.vertices;
+        const auto [found, added] =
+            known_.try_emplace({from, to, limit}, static_cast<std::uint32_t>(vertices.size() / 3));
+        if (!added) return found->second;
+        // A margin at both ends keeps triangles from being slivers.
+        constexpr float margin = 0.05F;
+        const float low = bed_.values[from];
+        const float share =
+            margin + (1.0F - 2.0F * margin) * (bed_.limits[limit] - low) / (bed_.values[to] - low);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float start = vertices[3 * from + axis];
+            vertices.push_back(start + share * (vertices[3 * to + axis] - start));
+        }
+        return found->second;
+    }
+
+    const BedSediments& bed_;
+    BedGround& ground_;
+    std::vector<std::vector<std::uint32_t>> parts_;  ///< the corners of a triangle's parts
+    std::map<std::array<std::size_t, 3>, std::uint32_t> known_ = {};
+};
 
 void set_class(const std::string& name, tinygltf::Node& node) {
     using tinygltf::Value;
@@ -66,11 +104,30 @@ int add_rock_shape(const Surface& surface, int material, tinygltf::Model& model)
 
 }  // namespace
 
+BedGround ground_of(const Seabed& bed) {
+    BedGround out{{}, std::vector<std::vector<std::uint32_t>>(bed.materials.size())};
+    const auto width = static_cast<std::uint32_t>(bed.grid.columns);
+    const auto size = static_cast<std::uint32_t>(bed.heights.size());
+    out.vertices.reserve(3 * bed.heights.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+        for (const float x :
+             {static_cast<float>(i % width), static_cast<float>(i / width), bed.heights[i]})
+            out.vertices.push_back(x);
+    }
+    Borders borders(bed.sediments, out);
+    for (std::uint32_t i = 0; i + width < size; ++i) {
+        if ((i + 1) % width == 0) continue;
+        borders.add({i, i + width, i + width + 1});
+        borders.add({i, i + width + 1, i + 1});
+    }
+    return out;
+}
+
 tinygltf::Model bed_model(const Seabed& bed) {
     tinygltf::Model model;
     const int ground = add_mesh(model, "seabed");
-    const int positions = add_positions(model, vertices_of(bed));
-    const auto corners = corners_by_material(bed);
+    const auto [vertices, corners] = ground_of(bed);
+    const int positions = add_positions(model, vertices);
     for (std::size_t m = 0; m < corners.size(); ++m) {
         if (corners[m].empty()) continue;
         add_triangles(model, ground, positions, corners[m],

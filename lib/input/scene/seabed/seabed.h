@@ -35,9 +35,9 @@ struct SeabedRule {
 /// A bed, or a part of one.
 struct Seabed {
     BedGrid grid;
-    std::vector<float> heights;           ///< world z of the cells, in the order of the grid
-    std::vector<std::string> materials;   ///< the bed's; "" is none
-    std::vector<std::uint8_t> sediments;  ///< index into `materials` for each cell
+    std::vector<float> heights;          ///< world z of the cells, in the order of the grid
+    std::vector<std::string> materials;  ///< the bed's; "" is none
+    BedSediments sediments;              ///< indices into `materials`
     std::string class_name;
     std::vector<Surface> rock_shapes;
     std::vector<Rock> rocks;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -12,31 +11,13 @@ namespace sonarsim {
 
 namespace {
 
-inline double normal_density(double x) {
-    return exponential(-0.5 * x * x) / std::sqrt(2.0 * pi);
-}
-
-/// The probability of a normal number above x >= 0, within 1e-7 (Abramowitz and Stegun 26.2.17).
-inline double normal_tail(double x) {
-    const double t = 1.0 / (1.0 + 0.2316419 * x);
-    const double series =
-        t * (0.319381530 +
-             t * (-0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))));
-    return normal_density(x) * series;
-}
-
-/// The quantile of the normal(0, 1) distribution, within 1e-6; infinite for 0 and 1.
+/// The quantile of the normal(0, 1) distribution, within 4.5e-4 (Abramowitz and Stegun 26.2.23).
 double normal_quantile(double probability) {
-    const double tail = std::min(probability, 1.0 - probability);
-    if (tail <= 0.0)
-        return std::copysign(std::numeric_limits<double>::infinity(), probability - 0.5);
-    double low = 0.0;
-    double high = 40.0;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (normal_tail(middle) > tail ? low : high) = middle;
-    }
-    return std::copysign(low, probability - 0.5);
+    const double tail = std::max(std::min(probability, 1.0 - probability), 1e-300);
+    const double t = std::sqrt(-2.0 * logarithm(tail));
+    const double quantile = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
+                                    (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    return std::copysign(quantile, probability - 0.5);
 }
 
 /// The `length_m` of a smooth_field() that crosses its mean upwards once in `patch_m`, on average
@@ -48,31 +29,38 @@ double length_of_patches(double patch_m) {
 
 }  // namespace
 
-std::vector<std::uint8_t> sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list,
-                                       double patch_m, std::uint64_t seed) {
-    std::vector<std::uint8_t> out(grid.size(), 0);
+BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
+                          std::uint64_t seed) {
+    BedSediments out{std::vector<std::uint8_t>(grid.size(), 0), {}, {}};
     if (list.size() < 2) return out;
-    const std::vector<float> large =
-        smooth_field(grid, length_of_patches(patch_m), bed_key(seed, BedDraw::sediments));
-    const std::vector<float> small = smooth_field(grid, length_of_patches(bays_per_patch * patch_m),
-                                                  bed_key(seed, BedDraw::borders));
+    constexpr double fall = 0.5946035575013605;  // 0.5^0.75
+    out.values.resize(grid.size(), 0.0F);
+    double amplitude = 1.0;
+    double variance = 0.0;
+    std::uint32_t octave = 0;
+    for (double wave_m = longest_wave * patch_m; octave == 0 || wave_m >= 4.0 * grid.cell_m;
+         wave_m *= 0.5) {
+        const std::vector<float> waves = smooth_field(grid, length_of_patches(wave_m),
+                                                      bed_key(seed, BedDraw::sediments, octave++));
+        for (std::size_t i = 0; i < waves.size(); ++i)
+            out.values[i] += static_cast<float>(amplitude) * waves[i];
+        variance += amplitude * amplitude;
+        if (wave_m <= patch_m) amplitude *= fall;
+    }
     double sum = 0.0;
     for (const BedSediment& sediment : list)
         sum += sediment.share;
-    std::vector<double> limits;
     double below = 0.0;
     for (const BedSediment& sediment : list) {
         below += sediment.share;
-        limits.push_back(normal_quantile(below / sum));
+        out.limits.push_back(
+            static_cast<float>(std::sqrt(variance) * normal_quantile(below / sum)));
     }
-    limits.pop_back();
-    constexpr double part_of_borders = 0.25;
-    const double part_of_patches = std::sqrt(1.0 - part_of_borders * part_of_borders);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const double value = part_of_patches * static_cast<double>(large[i]) +
-                             part_of_borders * static_cast<double>(small[i]);
-        for (const double limit : limits)
-            out[i] = static_cast<std::uint8_t>(out[i] + (value > limit ? 1 : 0));
+    out.limits.pop_back();
+    for (std::size_t i = 0; i < out.cells.size(); ++i) {
+        for (const float limit : out.limits)
+            out.cells[i] =
+                static_cast<std::uint8_t>(out.cells[i] + (out.values[i] > limit ? 1 : 0));
     }
     return out;
 }

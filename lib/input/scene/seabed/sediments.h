@@ -14,13 +14,23 @@ struct BedSediment {
     double share = 1.0;
 };
 
-/// The size of the bays of a border, as a share of the size of the patches.
-inline constexpr double bays_per_patch = 0.1;
+/// The sediments of a grid, as indices into a list. A point has the index of as many limits as its
+/// value exceeds.
+struct BedSediments {
+    std::vector<std::uint8_t> cells;  ///< at the middles of the cells, in the order of the grid
+    std::vector<float> values;        ///< likewise; none of a single sediment
+    std::vector<float> limits;        ///< rising
+};
 
-/// The sediment of each cell, as an index. A smooth field is cut into as many bands as there are
-/// sediments: each has its share of the bed, and borders on those before and after it in the list.
-/// The field's waves are `patch_m` long, with the smaller ones of the bays on them.
-std::vector<std::uint8_t> sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list,
-                                       double patch_m, std::uint64_t seed);
+/// The longest waves of the sediments' field, in patches. A rule.
+inline constexpr double longest_wave = 8.0;
+
+/// Cuts a random field into as many bands as there are sediments: each has its share of the bed,
+/// and borders on those before and after it in the list. The field has octaves of waves, down to 4
+/// cells. They have equal variance down to `patch_m`, so that patches join to large ones. Below,
+/// amplitudes fall as wavelength^0.75: then borders have the dimension 1.25, as the coast of
+/// Britain has it (Mandelbrot, Science 156 (1967), 636).
+BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
+                          std::uint64_t seed);
 
 }  // namespace sonarsim
