@@ -61,9 +61,10 @@ class Borders {
     std::uint32_t crossing(std::uint32_t from, std::uint32_t to, std::size_t limit) {
         if (from > to) std::swap(from, to);
         std::vector<float>& vertices = ground_.vertices;
-        const auto [found, added] =
-            known_.try_emplace({from, to, limit}, static_cast<std::uint32_t>(vertices.size() / 3));
-        if (!added) return found->second;
+        const auto number = static_cast<std::uint32_t>(vertices.size() / 3);
+        const auto [found, added] = known_.try_emplace({from, to, limit}, number);
+        // The second triangle is the last to need it.
+        if (!added) return known_.extract(found).mapped();
         // A margin at both ends keeps triangles from being slivers.
         constexpr float margin = 0.05F;
         const float low = bed_.values[from];
@@ -73,7 +74,7 @@ class Borders {
             const float start = vertices[3 * from + axis];
             vertices.push_back(start + share * (vertices[3 * to + axis] - start));
         }
-        return found->second;
+        return number;
     }
 
     const BedSediments& bed_;
