@@ -120,13 +120,13 @@ class SurfaceEchoFinder {
             if (kind_of(kind).is_surface)
                 strengths_.apply(samples, pieces, &limits_, echoes_.power);
             int last_piece = -1;
-            const Sample* last_sample = nullptr;
+            int last_shaped = -1;
             WedgeExtent extent;
             for (const auto& [beam, k, power] : received(pieces, echoes_, nullptr)) {
                 const Sample& sample = samples[pieces.sample[k]];
                 const float half_m = pieces.half_range_m[k];
-                if (&sample != last_sample) extent = extent_of_piece(sample);
-                last_sample = &sample;
+                if (k != last_shaped) extent = extent_of_piece(pieces, k, sample);
+                last_shaped = k;
                 blocks_.add(static_cast<std::uint32_t>(beam),
                             echoes_.range_m[k] + 0.5F * (extent.after - extent.before) * half_m,
                             0.5F * (extent.after + extent.before) * half_m, power, 1.0F, &sample);
@@ -191,13 +191,11 @@ class SurfaceEchoFinder {
         patch_echoes_.push_back({static_cast<std::uint32_t>(beam), power});
     }
 
-    /// Pieces of a wedge that is cut along `edge_u` are nearly parallelograms.
-    WedgeExtent extent_of_piece(const Sample& sample) const {
+    WedgeExtent extent_of_piece(const PatchBlock& pieces, int k, const Sample& sample) const {
         if (sample.wedge == 0.0F) return {};
-        const Arrival at = arrival_of(sample.position);
-        const EdgeExtents u = extents_of(sample.edge_u, at.direction);
-        if (patches_along(u, at.range_m, limits_) > 1) return {};
-        return wedge_extent(sample.wedge, u.depth, at.direction.dot(sample.edge_v));
+        const EchoPatch patch = patch_of(pieces, k, sample);
+        const Eigen::Vector3f d = arrival_of(patch.position).direction;
+        return wedge_extent(patch.wedge, d.dot(patch.edge_u), d.dot(patch.edge_v));
     }
 
     EchoPatch patch_of(const PatchBlock& pieces, int k, const Sample& sample) const {
