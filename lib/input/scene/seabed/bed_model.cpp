@@ -71,8 +71,8 @@ class Borders {
         const float share =
             margin + (1.0F - 2.0F * margin) * (bed_.limits[limit] - low) / (bed_.values[to] - low);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float start = vertices[3 * from + axis];
-            vertices.push_back(start + share * (vertices[3 * to + axis] - start));
+            const float start = vertices[std::size_t{3} * from + axis];
+            vertices.push_back(start + share * (vertices[std::size_t{3} * to + axis] - start));
         }
         return number;
     }
@@ -111,8 +111,9 @@ BedGround ground_of(const Seabed& bed) {
     const auto size = static_cast<std::uint32_t>(bed.heights.size());
     out.vertices.reserve(3 * bed.heights.size());
     for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t row = i / width;
         for (const float x :
-             {static_cast<float>(i % width), static_cast<float>(i / width), bed.heights[i]})
+             {static_cast<float>(i % width), static_cast<float>(row), bed.heights[i]})
             out.vertices.push_back(x);
     }
     Borders borders(bed.sediments, out);
