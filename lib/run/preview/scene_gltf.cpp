@@ -79,6 +79,7 @@ class SceneModel {
     void add_lines(const std::string& name, const std::vector<Vector3d>& points, int mode,
                    const Rgb& colour) {
         std::vector<Vector3f> local;
+        local.reserve(points.size());
         for (const Vector3d& point : points)
             local.emplace_back((point - scene_.origin).cast<float>());
         const int mesh = add_mesh(model_, name);
@@ -164,7 +165,7 @@ class SceneModel {
 
     void place(std::uint32_t instance, int mesh, const Affine3d& at) {
         tinygltf::Node& node = child(scene_.instances[instance], mesh);
-        const Eigen::Matrix4d matrix = at.matrix();
+        const Eigen::Matrix4d& matrix = at.matrix();
         if (!matrix.isIdentity()) node.matrix.assign(matrix.data(), matrix.data() + 16);
         const SceneObjects& objects = assembly_.objects;
         if (objects.objects.empty()) return;
