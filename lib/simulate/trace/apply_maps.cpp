@@ -160,7 +160,7 @@ class GroundMapApplier {
         sample.edge_u = piece.u;
         sample.edge_v = piece.v;
         sample.area_m2 = piece.area_m2;
-        if (piece.area_m2 != sample_->area_m2) sample.wedge = 0.0F;
+        if (piece.u != sample_->edge_u || piece.v != sample_->edge_v) sample.wedge = 0.0F;
         sample.material = material;
         sample.strength = sample_->strength * strength;
     }
