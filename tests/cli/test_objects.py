@@ -259,6 +259,24 @@ class Objects(Sandbox):
             with self.subTest(background=background, bottom=bottom):
                 self.assertEqual(says in self.succeeds("validate", "mission.yaml").stdout, expected)
 
+    def test_parts_of_a_node_are_classes_by_material(self):
+        """A plate of two materials, with a wall of one of them beside it: port is glass, starboard paint."""
+        self.write("plate.obj", "".join(f"v {x} {y} {z}\n" for x in (2, 3) for y in (-1, 0, 1) for z in (-1, 1))
+                   + "o plate\nusemtl Glass.001\nf 3 4 6 5\nusemtl Paint\nf 1 2 4 3\no wall\nusemtl Paint\nf 7 8 12 11\n")
+        self.write("materials.csv", (self.folder / "materials.csv").read_text() + "Glass,2500,5600\nPaint,1200,2000\n")
+        self.write("mission.yaml", MISSION.replace("file: room.gltf", "file: plate.obj, up: z")
+                   .replace('{nodes: "pillar*", class: pillar}',
+                            '{materials: "Glass*", class: window}\n  - {nodes: plate, class: hull}'))
+        self.assert_renders()
+        labels = json.loads((self.out / "dataset.json").read_text())["labels"]
+        names = {entry["name"]: entry["id"] for entry in labels["instances"]}
+        classes = {entry["id"]: entry["name"] for entry in labels["classes"]}
+        self.assertEqual({entry["name"]: classes[entry["class"]] for entry in labels["instances"]},
+                         {"plate": "hull", "plate.Glass.001": "window", "wall": "wall"})
+        ids = picture(self.out / "fls/instance/000000.png")
+        starboard, port = (set(np.unique(half)) - {0} for half in (ids[:, :24], ids[:, 24:]))
+        self.assertEqual((port, starboard), ({names["plate.Glass.001"]}, {names["plate"]}))
+
     def test_what_is_refused(self):
         labels = "labels: {background: [none]}\n"
         for old, new, *fragments in (

@@ -155,17 +155,21 @@ class Bathymetry(Gdal):
         super().setUp()
         self.edit("mission.yaml", "output:\n", "  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, "
                   "azimuth_bins: 16}\noutput:\n")
-        self.assert_renders()
+        self.assert_renders("--set", "output.labels=[instance, class]")
 
     @unittest.skipIf(python_with("meshio") is None, "needs python3-meshio")
     def test_ply(self):
         compare = """
 import sys, meshio, numpy
-cloud, rows = meshio.read(sys.argv[1]), numpy.load(sys.argv[2]).reshape(-1, 5)
+cloud, rows = meshio.read(sys.argv[1]), numpy.load(sys.argv[2])
+rows = rows.reshape(-1, rows.shape[-1])
 rows = rows[~numpy.isnan(rows[:, 0])]
 assert len(rows) > 0
 numpy.testing.assert_array_equal(cloud.points, rows[:, 1:4])
 numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(numpy.float32))
+for k, name in enumerate(("instance", "class"), start=5):
+    numpy.testing.assert_array_equal(cloud.point_data[name], rows[:, k])
+    assert rows[:, k].min() > 0
 """
         files = [self.out / "mbes" / name for name in ("soundings.ply", "soundings.npy")]
         self.run_program(python_with("meshio"), "-c", compare, *files)

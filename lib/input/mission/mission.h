@@ -35,11 +35,17 @@ struct OctreeConfig {
 
 /// Gives a class to all nodes whose names match a pattern.
 struct ClassConfig {
-    std::string nodes;     ///< `*` stands for any text, `?` for any one byte
-    std::string name;      ///< the class
-    std::string instance;  ///< one instance of all these nodes; "": each is its own
+    std::string nodes;      ///< `*` stands for any text, `?` for any one byte
+    std::string materials;  ///< in place of `nodes`: the parts of nodes of these materials
+    std::string name;       ///< the class
+    std::string instance;   ///< one instance of all these nodes; "": each is its own
     Location place = {};
 };
+
+/// The names of the nodes, and of the parts of nodes, that a rule is for.
+inline std::string pattern_of(const ClassConfig& rule) {
+    return rule.materials.empty() ? rule.nodes : "*." + rule.materials;
+}
 
 /// The bins that the mask of an object has.
 enum class MaskKind { outline, echo };
@@ -101,12 +107,15 @@ template <class Visitor>
 void describe(Visitor& v, ClassConfig& c) {
     v.text("nodes", c.nodes,
            "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
+    v.text("materials", c.materials,
+           "in place of `nodes`: names of materials in the files; the part of a node of such a "
+           "material is an instance of its own, NODE.MATERIAL");
     v.text("class", c.name, "class of these nodes");
     v.text("instance", c.instance,
            "name of the one instance that these nodes form; without it each node is an instance of "
            "its own");
-    v.require(!c.nodes.empty() && !c.name.empty(), {},
-              "a rule for classes needs the keys 'nodes' and 'class'");
+    v.require(c.nodes.empty() != c.materials.empty() && !c.name.empty(), {},
+              "a rule for classes needs the keys 'nodes' or 'materials', and 'class'");
 }
 
 inline constexpr Choice<MaskKind> mask_kinds[]{{"outline", MaskKind::outline},

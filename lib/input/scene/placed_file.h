@@ -35,6 +35,8 @@ struct PlacedFile {
     bool z_up = false;          ///< the file's z points up, not its y
     bool up_given = false;      ///< the user has said which axis points up
     std::string material = {};  ///< material of every triangle; "": the file's own
+    /// Patterns of materials. The part of a node of such a material is an instance of its own.
+    std::vector<std::string> parts = {};
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
     std::shared_ptr<const Seabed> seabed = {};    ///< generated sea bed, in place of the file
 

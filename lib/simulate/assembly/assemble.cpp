@@ -201,7 +201,7 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
 SceneObjects objects_of(const Mission& mission, const Scene& scene) {
     std::vector<ClassRule> rules;
     for (const ClassConfig& rule : mission.classes)
-        rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
+        rules.push_back({pattern_of(rule), rule.name, rule.instance, rule.place});
     SceneObjects objects = group_objects(scene, rules, possible_objects(mission, scene));
     objects.background = background_classes(mission, scene, objects);
     objects.shadow = shadow_classes(mission, objects);
@@ -247,6 +247,8 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     const EngineSettings settings = engine_settings(mission);
     auto [materials, parts] = place(mission, settings, models, assembly);
     // 2. The scene. Where all of it moves, its motions bound it.
+    for (PlacedFile& file : parts.files)
+        file.parts = parts_of(mission, file);
     scene = load_scene(parts.files, models, materials, mission.scene.material_default, water,
                        sharing_threshold(settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, scene);

@@ -44,6 +44,15 @@ PlacedFile file_of(const ObjectConfig& object) {
     return file;
 }
 
+std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file) {
+    std::vector<std::string> parts;
+    if (!file.name.empty()) return parts;  // one instance
+    for (const ClassConfig& rule : mission.classes) {
+        if (!rule.materials.empty()) parts.push_back(rule.materials);
+    }
+    return parts;
+}
+
 PlacedFile file_of(const HeightmapConfig& map) {
     PlacedFile file{.file = map.file,
                     .z_up = true,

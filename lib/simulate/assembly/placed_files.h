@@ -19,6 +19,10 @@ PlacedFile file_of(const ObjectConfig& object);
 /// A heightmap, placed.
 PlacedFile file_of(const HeightmapConfig& map);
 
+/// The materials whose parts of the file's nodes are instances of their own, by the mission's rules
+/// for classes.
+std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file);
+
 /// The unit and axis of the .obj, .stl and .ply files of a scene, which do not say them: "tyre.stl:
 /// metres, y up (no `up` given)".
 std::vector<std::string> readings_of(const SceneConfig& scene);

@@ -49,7 +49,8 @@ Scene named_instances(const Mission& mission, SceneFiles& models) {
         named.instances.push_back(name);
         named.instance_classes.push_back(class_name);
     };
-    const auto read = [&](const PlacedFile& file) {
+    const auto read = [&](PlacedFile file) {
+        file.parts = parts_of(mission, file);
         const Scene own = load_scene_geometry(file, models);
         for (std::size_t i = 0; i < own.instances.size(); ++i)
             add(own.instances[i], own.instance_classes[i]);
@@ -82,7 +83,7 @@ std::vector<std::string> classes_of(const PossibleObjects& possible,
     std::vector<std::string> classes;
     for (const NamedInstance& instance : possible.instances) {
         const auto rule = std::ranges::find_if(
-            rules, [&](const ClassConfig& one) { return fits_pattern(one.nodes, instance.name); });
+            rules, [&](const ClassConfig& one) { return fits_pattern(pattern_of(one), instance.name); });
         classes.push_back(rule != rules.end()           ? rule->name
                           : instance.class_name.empty() ? without_copy_number(instance.name)
                                                         : instance.class_name);

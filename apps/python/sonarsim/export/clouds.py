@@ -17,8 +17,6 @@ def points_of(sample):
         rows = rows[beams]
         at = np.maximum(bin_of(rows[:, 0], sensor.range_edges_m), 0), beams
         found = dict(zip("xyz", rows.T[1:4]), quality=rows[:, 4].astype("f4"), depth_m=-rows[:, 3])
-        if rows.shape[1] > 5:       # with a profile of the sound speed
-            found["depth_true_m"] = -rows[:, 7]
     else:
         points = sensor.points(sample)
         at = tuple(points.bins.T)

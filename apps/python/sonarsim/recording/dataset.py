@@ -81,9 +81,9 @@ def read_records(folder, sensor, kind, pings, first):
 def soundings_of(folder, sensor, recording):
     """The bottom that a profiling sonar detected. Intensities are mean powers over the footprint of a beam, as
     echosounders deliver them: on a level bottom, r width tan(angle) of range."""
-    records = sensor.records("soundings")       # range, x, y, z, quality, and x, y, z where sound bends
+    records = sensor.records("soundings")       # range, x, y, z, quality, labels
     pings, ranges, beams = recording.values.shape
-    require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] in (5, 8))
+    require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] >= 5)
     range_m, quality = records[:pings, :, 0], records[:pings, :, 4]
     bins = (range_m - recording.first_range_m) / recording.range_step_m + 0.5
     found = (quality >= LEAST_QUALITY) & (bins >= 0.0) & (bins < ranges)

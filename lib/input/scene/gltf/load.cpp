@@ -132,7 +132,7 @@ bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
     if (!file.bottom) return false;
     if (file.bottom->empty()) return true;
     return file.name.empty() && std::ranges::any_of(*file.bottom, [&](const std::string& pattern) {
-               return fits_pattern(pattern, mesh.instance);
+               return fits_pattern(pattern, mesh.node);
            });
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "input/scene/gltf/extras.h"
+#include "input/scene/objects.h"
 
 namespace sonarsim {
 
@@ -143,6 +144,32 @@ void check_rigid(const Graph& graph, int index) {
     }
 }
 
+/// Adds a mesh, without the materials that are instances of their own, and these after it.
+void add_parts(const PlacedMesh& whole, const PlacedFile& file, const tinygltf::Model& model,
+               UniqueNames& names, std::vector<PlacedMesh>& placed) {
+    PlacedMesh rest = whole;
+    std::map<int, std::string> parts;
+    for (const auto& primitive : model.meshes[static_cast<std::size_t>(whole.mesh)].primitives) {
+        const auto index = static_cast<std::size_t>(primitive.material);
+        const std::string name =
+            index < model.materials.size() ? model.materials[index].name : std::string();
+        const bool is_part = std::ranges::any_of(file.parts, [&](const std::string& pattern) {
+            return !name.empty() && fits_pattern(pattern, name);
+        });
+        if (is_part)
+            parts.emplace(primitive.material, name);
+        else
+            rest.materials.insert(primitive.material);
+    }
+    if (parts.empty() || !whole.material.empty()) return placed.push_back(whole);
+    if (!rest.materials.empty()) placed.push_back(rest);
+    for (const auto& [material, name] : parts) {
+        PlacedMesh& part = placed.emplace_back(whole);
+        part.instance = names.unique(whole.node + "." + name);
+        part.materials = {material};
+    }
+}
+
 /// The transform from the file's axes and unit to metres with z up.
 Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     Eigen::Affine3d T_file_gltf = Eigen::Affine3d::Identity();
@@ -198,10 +225,10 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
         const std::string& label = own_class.empty() ? visit.label : own_class;
         if (node.mesh >= 0) {
             check_rigid(graph, visit.node);
-            placed.push_back(
-                {node.mesh, T_world_node,
-                 placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name,
-                 material, label});
+            const std::string name =
+                placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name;
+            add_parts({node.mesh, T_world_node, name, material, label, name}, placed_file, model,
+                      names, placed);
         }
         push(node.children, T_world_node, material, label);
     }

@@ -16,9 +16,11 @@ namespace sonarsim {
 struct PlacedMesh {
     int mesh = 0;  ///< index into the model's meshes; checked to exist
     Eigen::Affine3d T_world_mesh;
-    std::string instance;  ///< the node's unique name, or the name of the whole file
-    std::string material;  ///< extras.sonar.material of the node or an ancestor; "": none
-    std::string label;     ///< extras.sonar.class, inherited in the same way
+    std::string node;              ///< the node's unique name, or the name of the whole file
+    std::string material;          ///< extras.sonar.material of the node or an ancestor; "": none
+    std::string label;             ///< extras.sonar.class, inherited in the same way
+    std::string instance;          ///< `node`, or of a part NODE.MATERIAL
+    std::set<int> materials = {};  ///< the glTF materials of its primitives; empty: all
 };
 
 /// Makes names unique: a name that is taken gets "_2", "_3", ...

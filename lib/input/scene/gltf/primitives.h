@@ -54,6 +54,8 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
             mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
         const std::string prefix = path + ": mesh " + name + " primitive ";
         for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+            const std::set<int>& own = file.meshes[i].materials;
+            if (!own.empty() && !own.contains(mesh.primitives[k].material)) continue;
             const std::string where = prefix + std::to_string(k);
             const auto source = open_triangles(*file.model, mesh.primitives[k], where);
             limit.add(source ? &*source : nullptr, path);

@@ -2,12 +2,15 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/file.h"
 #include "output/dataset/json.h"
+#include "output/dataset/labelled_ping.h"
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
@@ -17,16 +20,32 @@ namespace sonarsim {
 
 namespace {
 
+/// A label of a sounding: the value of the bin where the beam meets the bottom.
+struct SoundingLabel {
+    const char* name;
+    std::vector<std::uint16_t> PingLabels::*bins;
+};
+
+std::vector<SoundingLabel> labels_of(const OutputConfig& output) {
+    std::vector<SoundingLabel> labels;
+    for (const Label label : output.labels) {
+        if (label == Label::instance) labels.push_back({"instance", &PingLabels::object});
+        if (label == Label::class_name) labels.push_back({"class", &PingLabels::class_id});
+    }
+    return labels;
+}
+
 /// The soundings of a sensor, and the times of its pings.
 struct SoundingSource {
     const RecordFile& records;
     std::size_t beams;
     std::uint32_t every;
     const Trajectory& trajectory;
+    std::vector<SoundingLabel> labels;
 };
 
-/// Numbers per sounding in a record: range, x, y, z and quality.
-constexpr std::size_t fields_of_sounding = 5;
+/// Numbers per sounding in a record before its labels: range, x, y, z and quality.
+constexpr std::size_t numbers_of_sounding = 5;
 
 struct RecordedSounding {
     std::size_t pose;
@@ -34,18 +53,25 @@ struct RecordedSounding {
     double range_m;
     Eigen::Vector3d position;
     double quality;
+    std::span<const double> labels;
 };
 
 /// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
 void for_each_sounding(const SoundingSource& source,
                        const std::function<void(const RecordedSounding&)>& visit) {
-    std::vector<double> fields(source.beams * fields_of_sounding);
+    const std::size_t count = numbers_of_sounding + source.labels.size();
+    std::vector<double> fields(source.beams * count);
     for (std::size_t k = 0; k < source.records.records(); ++k) {
         source.records.read(k, std::as_writable_bytes(std::span(fields)));
         for (std::size_t beam = 0; beam < source.beams; ++beam) {
-            const double* const f = fields.data() + beam * fields_of_sounding;
+            const auto f = std::span<const double>(fields).subspan(beam * count, count);
             if (std::isnan(f[0])) continue;
-            visit({k * source.every, beam, f[0], {f[1], f[2], f[3]}, f[4]});
+            visit({k * source.every,
+                   beam,
+                   f[0],
+                   {f[1], f[2], f[3]},
+                   f[4],
+                   f.subspan(numbers_of_sounding)});
         }
     }
 }
@@ -74,13 +100,22 @@ nlohmann::ordered_json georeference(const Bathymetry& grid, const MapPlace& plac
 }
 
 std::string csv_line(const RecordedSounding& s, double time_s) {
-    return fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose, time_s, s.beam,
-                       s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality);
+    return fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}{}{}\n", s.pose, time_s,
+                       s.beam, s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality,
+                       s.labels.empty() ? "" : ",", fmt::join(s.labels, ","));
 }
 
 void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
     StreamedFile csv(folder / "soundings.csv");
-    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
+    std::string header = "pose,time_s,beam,range_m,x_m,y_m,z_m,quality";
+    std::string properties =
+        "property double x\nproperty double y\nproperty double z\n"
+        "property float quality\n";
+    for (const SoundingLabel& label : source.labels) {
+        header += std::string(",") + label.name;
+        properties += std::string("property uint ") + label.name + "\n";
+    }
+    csv.append(header + "\n");
     std::uint64_t count = 0;
     for_each_sounding(source, [&](const RecordedSounding& s) {
         csv.append(csv_line(s, source.trajectory[s.pose].t_s));
@@ -90,11 +125,11 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
 
     StreamedFile ply(folder / "soundings.ply");
     ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-               "\nproperty double x\nproperty double y\nproperty double z\n"
-               "property float quality\nend_header\n");
+               "\n" + properties + "end_header\n");
     for_each_sounding(source, [&](const RecordedSounding& s) {
         ply.append(record_bytes(std::vector{s.position.x(), s.position.y(), s.position.z()}));
         ply.append(record_bytes(std::vector{static_cast<float>(s.quality)}));
+        ply.append(record_bytes(std::vector<std::uint32_t>(s.labels.begin(), s.labels.end())));
     });
     ply.finish();
 }
@@ -125,35 +160,49 @@ void write_bathymetry(const WriterContext& context, const SoundingSource& source
 /// The numbers of the soundings of a ping.
 std::vector<double> sounding_fields(const WriterContext& context, const FinishedPing& finished) {
     std::vector<double> all;
+    const std::vector<SoundingLabel> labels = labels_of(context.mission.output);
+    const std::vector<double>& edges = finished.sonar.range_edges_m;
+    std::size_t beam = 0;
     const Pose& T_world_vehicle = context.assembly.trajectory[finished.id.pose].T_world_vehicle;
     for (const Sounding& s :
          find_soundings(finished.sonar, T_world_vehicle, finished.ping, finished.traced.motion)) {
         all.insert(all.end(),
                    {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
+        const auto above = std::ranges::upper_bound(edges, s.range_m) - edges.begin();
+        const std::size_t bin =
+            beam++ * finished.ping.range_bins + static_cast<std::size_t>(above) - 1;
+        for (const SoundingLabel& label : labels)
+            all.push_back(std::isnan(s.range_m) ? s.range_m
+                                                : (finished.labels->bins.*label.bins)[bin]);
     }
     return all;
 }
 
 }  // namespace
 
-/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding.
+/// soundings.npy: float64 [ping, beam, 5 + labels]: range, x, y, z, quality, and the instance and
+/// the class if they are labels; NaN without a sounding.
 /// soundings.csv and .ply hold the beams with a sounding; bathymetry.tif, .json and .png hold the
 /// map of the soundings.
 std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     const SonarConfig& config = context.sonar().config;
     if (config.kind != SonarKind::profiling) return std::nullopt;
     const std::size_t beams = context.sonar().settings.view.beams;
+    const std::vector<SoundingLabel> labels = labels_of(context.mission.output);
     const auto write_products = [=, &config](const RecordFile& records,
                                              const std::filesystem::path& folder) {
         const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
-                                    context.assembly.trajectory};
+                                    context.assembly.trajectory, labels};
         write_soundings(source, folder);
         write_bathymetry(context, source, folder);
     };
     PingRecord record;
     record.file = "soundings.npy";
-    record.format = {"<f8", {context.pings, beams, fields_of_sounding}};
-    record.axes = {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
+    record.format = {"<f8", {context.pings, beams, numbers_of_sounding + labels.size()}};
+    std::string fields = "range_m, x_m, y_m, z_m, quality";
+    for (const SoundingLabel& label : labels)
+        fields += std::string(", ") + label.name;
+    record.axes = {"ping", "beam", fields};
     return Writer{.per_ping = std::move(record),
                   .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
                                "bathymetry.json", "bathymetry.png"},
