@@ -111,6 +111,22 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    TEST_CASE("texture: nobody sees the square of the short waves repeat") {
+        const std::vector<Eigen::Vector2d> places = drawn_places(20000);
+        std::vector<Eigen::Vector2d> moved = places;
+        for (Eigen::Vector2d& place : moved)
+            place.x() += Texture::fine.edge_m();
+        const auto here = decibels(places);
+        const auto there = decibels(moved);
+        double products = 0.0;
+        double squares = 0.0;
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            products += here[k][0] * there[k][0];
+            squares += here[k][0] * here[k][0];
+        }
+        CHECK(products / squares < 0.5);  // squares side by side have 0.7
+    }
+
     TEST_CASE("texture: a place has the same factor from everywhere") {
         const std::vector<Eigen::Vector2d> places = drawn_places(4000);
         std::vector<Eigen::Vector2d> twice;

@@ -16,6 +16,9 @@ namespace {
 constexpr double ln_per_db = 0.23025850929940457;  // ln(10) / 10
 // Coordinates along the field are x and y plus this share of z, so that walls have texture, too.
 constexpr float share_of_height = 0.7F;
+// The coarse field moves the fine one by this times its value, so that nobody sees the fine one
+// repeat. Slopes of the coarse field reach some 0.3 per m: waves are stretched by up to a half.
+constexpr float bend_m = 1.5F;
 
 /// The deviation of an octave, dB.
 double octave_db(const Material& material) {
@@ -123,10 +126,11 @@ void Texture::apply(const PatchBlock& pieces, const SonarInScene& sonar, PhiloxK
         const Floats8 height = Floats8(share_of_height) * Floats8::load(places.z.data() + k);
         const Floats8 u = Floats8::load(places.x.data() + k) + height;
         const Floats8 v = Floats8::load(places.y.data() + k) + height;
-        const Floats8 sum =
-            field_at(fine_, fine, texels(u, fine, key.k0), texels(v, fine, key.k1)) +
-            field_at(coarse_, coarse, texels(u, coarse, key.k0 >> 9U),
-                     texels(v, coarse, key.k1 >> 9U));
+        const Floats8 wide = field_at(coarse_, coarse, texels(u, coarse, key.k0 >> 9U),
+                                      texels(v, coarse, key.k1 >> 9U));
+        const Floats8 bend = Floats8(bend_m) * wide;
+        const Floats8 sum = wide + field_at(fine_, fine, texels(u + bend, fine, key.k0),
+                                            texels(v - bend, fine, key.k1));
         sum.store(field.data() + k);
     }
     for (int k = 0; k < pieces.count; ++k) {
