@@ -71,9 +71,9 @@ class ImageFormer {
   private:
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
-        grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
         add_reverberation(model_.reverberation, form,
                           context_.draws.of(stream_named("reverberation")), grid);
+        grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
         beams_.form(grid, powers, noisy, context_.draws.of(Stream::receiver_noise), model_.row_gain,
                     image);
     }

@@ -20,7 +20,7 @@ struct Reverberation {
     Reverberation(const ReceiverConfig& receiver, double bin_m, double sound_speed_m_s);
 };
 
-/// Adds the tails of a grid's echoes, behind the pulse. Amplitudes are drawn for each ping.
+/// Adds the tails of a grid's echoes, before the pulse. Amplitudes are drawn for each ping.
 void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid);
 
 }  // namespace sonarsim
