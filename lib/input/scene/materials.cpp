@@ -170,6 +170,7 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
     ErrorList errors;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& material = scene.materials[i];
+        if (material.density_kg_m3 > 0.0) continue;  // resolved already
         const Material* const found = find_material(table.materials, material.name);
         if (!found) {
             const std::string name = "'" + printable(material.name) + "'";

@@ -30,9 +30,9 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
 /// InputError at `place`, where the mission names a material, if the table lacks it.
 void require_material(const MaterialTable& table, const std::string& name, const Location& place);
 
-/// Gives every material of the scene its density, sound speed and reflection in `water`. InputError
-/// with a line for each material that the table lacks. `users` names the first user of each
-/// material of the scene for this message; it may be empty.
+/// Gives every new material of the scene its density, sound speed and reflection in `water`.
+/// InputError with a line for each material that the table lacks. `users` names the first user of
+/// each material of the scene for this message; it may be empty.
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
                        std::span<const std::string> users = {});
 

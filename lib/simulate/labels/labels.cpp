@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "simulate/labels/patch_labels.h"
@@ -131,11 +133,20 @@ void find_shares(const SurfaceSums& surfaces, PingLabels& labels) {
 
 /// Finds the surfaces that give most of the echo of each bin.
 void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
-                    const LabelRequest& request, PingLabels& out) {
+                    std::span<const Material> materials, const LabelRequest& request,
+                    PingLabels& out) {
     TopTwoFinder by_object = surfaces.finder_by([](const Surface& of) { return of.object; });
     TopTwoFinder by_class =
         surfaces.finder_by([&](const Surface& of) { return objects.class_of(of.object); });
-    TopTwoFinder by_material = surfaces.finder_by([](const Surface& of) { return of.material; });
+    TopTwoFinder by_material = surfaces.finder_by([&](const Surface& of) {
+        if (of.material >= materials.size()) return of.material;  // the water's surface
+        // A mixture counts as the sediment that prevails.
+        const std::string& name = materials[of.material].name;
+        const auto found =
+            std::ranges::find(materials, name.substr(0, name.find(" + ")), &Material::name);
+        return found == materials.end() ? of.material
+                                        : static_cast<std::uint32_t>(found - materials.begin());
+    });
     TopTwoFinder visible = surfaces.finder_of_own(true);
     TopTwoFinder own_echoes = surfaces.finder_of_own(false);
     for (int j = 0; j < out.beams; ++j) {
@@ -201,7 +212,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                                        {.patches = request.elevation || request.height,
                                         .objects = request.only_objects ? &objects : nullptr},
                                        [&](const EchoBlock& block) { surfaces.add(block); });
-    label_surfaces(surfaces, objects, request, labels);
+    label_surfaces(surfaces, objects, scene.materials, request, labels);
     std::optional<PingShadows> shadows =
         find_shadows(traced, echoes, view, scene, objects, engine, request);
     if (shadows) labels.visible_share = shadows->visible_shares();

@@ -164,6 +164,13 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
     const BedGround ground = ground_of(bed);
     const auto& vertices = ground.vertices;  // clang 14 captures no structured bindings
     const auto& corners = ground.corners;
+    const std::vector<BedMixture> mixtures = mixtures_of(bed);
+    REQUIRE(corners.size() == 4 + mixtures.size());
+    CHECK(mixtures[5].name == "silt + 40 % sand");
+    CHECK(mixtures[6].name == "sand + 40 % silt");
+    const auto sediment_of = [&](std::size_t i) {
+        return i < 4 ? i : mixtures[i - 4].first + (mixtures[i - 4].share > 0.5 ? 1 : 0);
+    };
     const auto vertex = [&](std::uint32_t i) {
         return Eigen::Vector3d(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]);
     };
@@ -171,9 +178,18 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
     double volume = 0.0;
     using Edge = std::pair<std::uint32_t, std::uint32_t>;
     std::map<Edge, std::size_t> edges;  // from, to; its sediment
-    for (std::size_t m = 0; m < corners.size(); ++m) {
-        for (std::size_t i = 0; i < corners[m].size(); i += 3) {
-            const std::uint32_t* c = &corners[m][i];
+    float last_mean = -1e9F;
+    for (std::size_t group = 0; group < corners.size(); ++group) {
+        const std::size_t m = sediment_of(group);
+        float sum = 0.0F;
+        float whole = 0.0F;  // corners that are heights
+        for (std::size_t i = 0; i < corners[group].size(); i += 3) {
+            const std::uint32_t* c = &corners[group][i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (c[k] >= bed.heights.size()) continue;
+                sum += bed.sediments.values[c[k]];
+                whole += 1.0F;
+            }
             const Eigen::Vector3d up =
                 (vertex(c[1]) - vertex(c[0])).cross(vertex(c[2]) - vertex(c[0]));
             CHECK(up.z() < -1e-4);  // rows go south
@@ -182,6 +198,10 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
             for (const Edge& edge : {Edge(c[0], c[1]), Edge(c[1], c[2]), Edge(c[2], c[0])})
                 CHECK(edges.emplace(edge, m).second);
         }
+        if (group < 4 || whole == 0.0F) continue;
+        // Shares of a mixture rise across a border.
+        if ((group - 4) % (2 * border_mixtures) > 0) CHECK(sum / whole > last_mean);
+        last_mean = sum / whole;
     }
     const double columns = bed.grid.columns - 1;
     const double rows = bed.grid.rows - 1;

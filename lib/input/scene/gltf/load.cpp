@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "input/scene/find_material.h"
 #include "input/scene/gltf/extent.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
@@ -147,6 +148,22 @@ void require_materials(std::span<const PlacedFile> files, const MaterialTable& t
     }
 }
 
+/// Adds the mixtures of a bed. The mean grain size in phi of a mixture is the mean by mass, and so
+/// are its other numbers (rule); materials without a grain size do not mix.
+void add_mixtures(const Seabed& bed, MaterialTable& table) {
+    for (const BedMixture& mixture : mixtures_of(bed)) {
+        const Material a = *find_material(table.materials, bed.materials[mixture.first]);
+        const Material b = *find_material(table.materials, bed.materials[mixture.first + 1]);
+        Material& mixed = table.materials.emplace_back(mixture.share < 0.5 ? a : b);
+        mixed.name = mixture.name;
+        if (!a.grain_phi || !b.grain_phi) continue;
+        const auto mean = [&](double x, double y) { return x + mixture.share * (y - x); };
+        mixed.grain_phi = mean(*a.grain_phi, *b.grain_phi);
+        mixed.density_kg_m3 = mean(a.density_kg_m3, b.density_kg_m3);
+        mixed.sound_speed_m_s = mean(a.sound_speed_m_s, b.sound_speed_m_s);
+    }
+}
+
 }  // namespace
 
 std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
@@ -187,13 +204,17 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
                  const std::string& material_default, const Water& water,
                  std::size_t sharing_threshold) {
     require_materials(files, table);
+    MaterialTable mixed = table;
+    for (const PlacedFile& file : files) {
+        if (file.seabed) add_mixtures(*file.seabed, mixed);
+    }
     MaterialRules rules;
     rules.fallback = material_default;
-    for (const Material& material : table.materials)
+    for (const Material& material : mixed.materials)
         rules.known.insert(material.name);
     MaterialNumbers materials;
     Scene scene = compose(files, models, rules, sharing_threshold, materials);
-    resolve_materials(scene, table, water, materials.users);
+    resolve_materials(scene, mixed, water, materials.users);
     return scene;
 }
 

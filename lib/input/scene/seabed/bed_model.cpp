@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -15,7 +16,7 @@ namespace sonarsim {
 namespace {
 
 /// Adds triangles to a ground, and cuts them where the sediments' values, which are linear between
-/// cells, cross a limit.
+/// cells, cross a limit. Near a limit whole triangles are of one mixture.
 class Borders {
   public:
     Borders(const BedSediments& bed, BedGround& ground)
@@ -27,7 +28,7 @@ class Borders {
             at[k] = bed_.cells[triangle[k]];
         const auto [low, high] = std::minmax({at[0], at[1], at[2]});
         if (low == high) {
-            append(low, triangle[0], triangle[1], triangle[2]);
+            append(low, triangle, triangle[0], triangle[1], triangle[2]);
             return;
         }
         // Around the triangle: each corner is in one part, each crossing in the parts on both
@@ -46,15 +47,40 @@ class Borders {
         }
         for (std::size_t part = low; part <= high; ++part) {
             for (std::size_t k = 2; k < parts_[part].size(); ++k)
-                append(part, parts_[part][0], parts_[part][k - 1], parts_[part][k]);
+                append(part, triangle, parts_[part][0], parts_[part][k - 1], parts_[part][k]);
             parts_[part].clear();
         }
     }
 
   private:
-    void append(std::size_t part, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    void append(std::size_t part, const std::array<std::uint32_t, 3>& triangle, std::uint32_t a,
+                std::uint32_t b, std::uint32_t c) {
+        std::vector<std::uint32_t>& corners = ground_.corners[index_of(part, triangle)];
         for (const std::uint32_t corner : {a, b, c})
-            ground_.corners[part].push_back(corner);
+            corners.push_back(corner);
+    }
+
+    /// The index into `corners` for the part of a triangle in one sediment: that of a mixture if
+    /// the triangle's middle is near a limit.
+    std::size_t index_of(std::size_t part, const std::array<std::uint32_t, 3>& triangle) const {
+        constexpr auto steps = static_cast<float>(border_mixtures);
+        std::size_t index = part;
+        float nearest = 1.0F;
+        for (std::size_t border = std::max<std::size_t>(part, 1) - 1;
+             border <= part && border < bed_.limits.size(); ++border) {
+            float middle = 0.0F;
+            for (const std::uint32_t corner : triangle)
+                middle += bed_.values[corner] / 3.0F;
+            const float from_limit = std::abs(middle - bed_.limits[border]) / bed_.mixed;
+            const bool beyond = part > border;
+            const float inside = (middle > bed_.limits[border]) == beyond ? from_limit : 0.0F;
+            if (inside >= nearest) continue;
+            nearest = inside;
+            const auto step = static_cast<std::size_t>(steps * inside);
+            index = bed_.limits.size() + 1 + 2 * border_mixtures * border +
+                    (beyond ? border_mixtures + step : border_mixtures - 1 - step);
+        }
+        return index;
     }
 
     /// The vertex where an edge crosses a limit, the same for the triangles on both sides.
@@ -106,7 +132,9 @@ int add_rock_shape(const Surface& surface, int material, tinygltf::Model& model)
 }  // namespace
 
 BedGround ground_of(const Seabed& bed) {
-    BedGround out{{}, std::vector<std::vector<std::uint32_t>>(bed.materials.size())};
+    BedGround out{
+        {},
+        std::vector<std::vector<std::uint32_t>>(bed.materials.size() + mixtures_of(bed).size())};
     const auto width = static_cast<std::uint32_t>(bed.grid.columns);
     const auto size = static_cast<std::uint32_t>(bed.heights.size());
     out.vertices.reserve(3 * bed.heights.size());
@@ -130,10 +158,12 @@ tinygltf::Model bed_model(const Seabed& bed) {
     const int ground = add_mesh(model, "seabed");
     const auto [vertices, corners] = ground_of(bed);
     const int positions = add_positions(model, vertices);
+    std::vector<std::string> materials = bed.materials;
+    for (const BedMixture& mixture : mixtures_of(bed))
+        materials.push_back(mixture.name);
     for (std::size_t m = 0; m < corners.size(); ++m) {
         if (corners[m].empty()) continue;
-        add_triangles(model, ground, positions, corners[m],
-                      material_number(model, bed.materials[m]));
+        add_triangles(model, ground, positions, corners[m], material_number(model, materials[m]));
     }
     tinygltf::Node& node = add_node(model, "seabed", ground);
     node.matrix = grid_matrix(bed.grid.cell_m, -bed.grid.cell_m, bed.grid.x_m(0), bed.grid.y_m(0));

@@ -11,8 +11,9 @@ namespace sonarsim {
 
 /// The surface of a bed without its rocks.
 struct BedGround {
-    std::vector<float> vertices;                      ///< column, row and height of each
-    std::vector<std::vector<std::uint32_t>> corners;  ///< [materials][3 * triangles]
+    std::vector<float> vertices;  ///< column, row and height of each
+    /// [materials, then mixtures_of()][3 * triangles]
+    std::vector<std::vector<std::uint32_t>> corners;
 };
 
 /// A vertex for each height, then those of the borders. Four heights make two triangles, with the

@@ -81,6 +81,22 @@ std::string rock_name(std::size_t index) {
     return "rock_" + std::to_string(index + 1);
 }
 
+std::vector<BedMixture> mixtures_of(const Seabed& bed) {
+    constexpr std::size_t count = 2 * border_mixtures;
+    std::vector<BedMixture> out;
+    for (std::size_t first = 0; first < bed.sediments.limits.size(); ++first) {
+        for (std::size_t step = 1; step <= count; ++step) {
+            const std::size_t beyond = step / (border_mixtures + 1);
+            const std::size_t least = beyond ? count + 1 - step : step;
+            out.push_back(
+                {fmt::format("{} + {} % {}", bed.materials[first + beyond],
+                             100 * least / (count + 1), bed.materials[first + 1 - beyond]),
+                 first, static_cast<double>(step) / static_cast<double>(count + 1)});
+        }
+    }
+    return out;
+}
+
 std::vector<std::string> materials_of(const Seabed& bed) {
     std::vector<std::string> names = bed.materials;
     names.push_back(bed.rock_material);

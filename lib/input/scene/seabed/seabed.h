@@ -50,6 +50,16 @@ inline constexpr const char* rock_class = "rock";
 /// "rock_1", the node of the first rock.
 std::string rock_name(std::size_t index);
 
+/// Two sediments at their border. "sand + 20 % mud" has the label of sand.
+struct BedMixture {
+    std::string name;
+    std::size_t first;  ///< index into Seabed::materials; the other is the next
+    double share;       ///< that the other has
+};
+
+/// The mixtures of each border in turn, from the first sediment to the next.
+std::vector<BedMixture> mixtures_of(const Seabed& bed);
+
 /// The names of all materials that a bed names.
 std::vector<std::string> materials_of(const Seabed& bed);
 

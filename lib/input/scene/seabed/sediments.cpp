@@ -31,7 +31,7 @@ double length_of_patches(double patch_m) {
 
 BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
                           std::uint64_t seed) {
-    BedSediments out{std::vector<std::uint8_t>(grid.size(), 0), {}, {}};
+    BedSediments out{std::vector<std::uint8_t>(grid.size(), 0), {}, {}, 0.0F};
     if (list.size() < 2) return out;
     constexpr double fall = 0.5946035575013605;  // 0.5^0.75
     out.values.resize(grid.size(), 0.0F);
@@ -47,6 +47,9 @@ BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& l
         variance += amplitude * amplitude;
         if (wave_m <= patch_m) amplitude *= fall;
     }
+    // Per metre the waves of patch_m and more change by 7 / patch_m.
+    const PhiloxKey key = bed_key(seed, BedDraw::sediments, 255);
+    out.mixed = 0.3F + 1.9F * unit_float(philox({0, 0, 0, 0}, key).x0);
     double sum = 0.0;
     for (const BedSediment& sediment : list)
         sum += sediment.share;
