@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <stdexcept>
 
 #include "simulate/reference/reference_cast.h"
 #include "simulate/trace/apply_maps.h"
@@ -10,31 +9,12 @@
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/through_walls.h"
 #include "simulate/trace/visible_surface.h"
-#include "simulate/visibility/intersect.h"
 #include "simulate/visibility/local_pose.h"
+#include "simulate/visibility/rays/rays_engine.h"
 
 namespace sonarsim {
 
 namespace {
-
-/// Casts rays for targets and behind walls, and nothing else.
-class SingleRays final : public VisibilityEngine {
-  public:
-    SingleRays(const Caster& caster, const Eigen::Vector3d& origin)
-        : caster_(caster), origin_(origin) {}
-
-    Samples visible_surface(const View& /*view*/, const Pose& /*T_world_sensor*/) const override {
-        throw std::logic_error("the reference samples no surface by an engine");
-    }
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
-    }
-
-  private:
-    const Caster& caster_;
-    const Eigen::Vector3d& origin_;
-};
 
 /// Images of points, added in parts: the expected powers of the parts sum to the image of all.
 class EnergyImage {
@@ -153,14 +133,14 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const View view = widened_view(settings.view);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
-    const SingleRays rays(caster, scene.origin);
+    const std::unique_ptr<VisibilityEngine> rays = make_rays_engine(scene, caster);
     TargetSurface targets;
     if (settings.targets) {
-        targets = target_surface(*settings.targets, settings.view, scene, rays, T_world_sensor);
+        targets = target_surface(*settings.targets, settings.view, scene, *rays, T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](const RayLayout& layout) -> CastResult {
-        EnergyImage image(scene, settings, T_world_sensor, rays, targets);
+        EnergyImage image(scene, settings, T_world_sensor, *rays, targets);
         const std::uint64_t cast = cast_over_surface(
             looking, layout, [&](const SurfacePoint& point) { image.add(point); });
         std::vector<double> sum = image.take();

@@ -137,39 +137,24 @@ void follow_traced(const BounceTracer& context, std::span<const std::uint32_t> s
     }
 }
 
-/// True if `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. If both are on
-/// one surface, they are one point with two roundings, so the comparison has a slack: the rounding
-/// across the surface, divided by cos(incidence) to be along the ray.
-bool hides(const Intersection& hit, const BounceHit& second, float range_m, const Ray& ray) {
-    if (std::isinf(hit.distance_m)) return false;
-    const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
-        return rounding_m / std::fabs(normal.dot(ray.direction));
-    };
-    const float slack =
-        along_ray(hit.rounding_m, hit.normal) + along_ray(second.rounding_m, second.normal);
-    return !(hit.distance_m + slack >= range_m);
-}
-
 /// Takes out the bounces whose second point the sonar does not see.
 void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& second_hits,
                  std::vector<BouncePath>& bounces, MultipathCounts& counts) {
-    constexpr std::uint32_t no_ray = 0xFFFFFFFFU;
-    std::vector<std::uint32_t> ray_of(second_hits.size(), no_ray);
-    std::vector<Ray> rays;
+    constexpr std::uint32_t no_sight = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> sight_of(second_hits.size(), no_sight);
+    std::vector<SightPoint> sights;
     for (const BouncePath& b : bounces) {
-        if (ray_of[b.ray] != no_ray) continue;
-        ray_of[b.ray] = static_cast<std::uint32_t>(rays.size());
-        rays.push_back(
-            {Eigen::Vector3f::Zero(), context.true_point(second_hits[b.ray].point).normalized()});
-    }
-    std::vector<Intersection> hits(rays.size());
-    context.engine.intersect(context.T_world_sensor, rays, hits);
-    counts.rays += rays.size();
-    counts.hidden += std::erase_if(bounces, [&](const BouncePath& b) {
-        const std::uint32_t ray = ray_of[b.ray];
+        if (sight_of[b.ray] != no_sight) continue;
         const BounceHit& second = second_hits[b.ray];
-        return hides(hits[ray], second, arrival_range(context.true_point(second.point)), rays[ray]);
-    });
+        const Eigen::Vector3f at = context.true_point(second.point);
+        sight_of[b.ray] = static_cast<std::uint32_t>(sights.size());
+        sights.push_back({at, std::fabs(context.true_change(second.normal).dot(at.normalized())),
+                          second.rounding_m});
+    }
+    const std::vector<bool> seen = context.engine.seen(context.T_world_sensor, sights);
+    counts.rays += sights.size();
+    counts.hidden +=
+        std::erase_if(bounces, [&](const BouncePath& b) { return !seen[sight_of[b.ray]]; });
 }
 
 /// Follows the sound of all samples to the second surfaces that `context` allows.

@@ -31,7 +31,7 @@ void add_particles(const Particles& particles, double time_s, const View& view,
     const GuardedField field(view);
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     std::vector<Sample> points;
-    std::vector<Ray> rays;
+    std::vector<SightPoint> sights;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
         const Particle& particle = particles.all[k];
         const Eigen::Vector3f place =
@@ -40,7 +40,7 @@ void add_particles(const Particles& particles, double time_s, const View& view,
         if (!(range > 0.0F && range < static_cast<float>(view.range_max_m)) ||
             !field.contains(place))
             continue;
-        rays.push_back({Eigen::Vector3f::Zero(), place / range});
+        sights.push_back({place});
         points.push_back({.position = place,
                           .edge_u = Eigen::Vector3f::Zero(),
                           .edge_v = Eigen::Vector3f::Zero(),
@@ -52,10 +52,9 @@ void add_particles(const Particles& particles, double time_s, const View& view,
                           .number = k,
                           .kind = SampleKind::particle});
     }
-    std::vector<Intersection> hits(rays.size());
-    engine.intersect(T_world_sensor, rays, hits);
+    const std::vector<bool> seen = engine.seen(T_world_sensor, sights);
     for (std::size_t k = 0; k < points.size(); ++k) {
-        if (hits[k].distance_m < points[k].height_m) continue;
+        if (!seen[k]) continue;
         samples.items.push_back(points[k]);
         if (!motion.is_still()) move_point(motion, view.shape, samples.items.back());
     }

@@ -57,21 +57,6 @@ float least_off(const Corners& corners) {
     return middle.norm() - std::sqrt(spread2);
 }
 
-/// A ray, and the piece that it should reach.
-struct SightRay {
-    Ray ray;
-    float range_m;
-    float cosine;   ///< cosine of the angle between the ray and the normal
-    float slack_m;  ///< greatest distance of the piece from the surface
-
-    bool arrives(const Intersection& hit) const {
-        // The ray hit nothing: it passed the outline of the target, where vertices were moved to
-        // join them.
-        if (!std::isfinite(hit.distance_m)) return true;
-        return hit.distance_m + (hit.rounding_m + slack_m) / std::max(cosine, 1e-3F) >= range_m;
-    }
-};
-
 /// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
@@ -107,14 +92,10 @@ class TargetSampler {
 
     /// The pieces that are seen.
     std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
-        std::vector<Ray> rays;
-        std::ranges::transform(sight_rays_, std::back_inserter(rays), &SightRay::ray);
-        std::vector<Intersection> hits(rays.size());
-        engine.intersect(T_world_sensor, rays, hits);
+        const std::vector<bool> seen = engine.seen(T_world_sensor, sights_);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
-            const std::uint32_t ray = ray_of_[k];
-            if (sight_rays_[ray].arrives(hits[ray])) pieces_[kept++] = pieces_[k];
+            if (seen[sight_of_[k]]) pieces_[kept++] = pieces_[k];
         }
         pieces_.resize(kept);
         return std::move(pieces_);
@@ -201,7 +182,7 @@ class TargetSampler {
         piece_.area_m2 =
             flat_m2 * std::max(flat_normal_.dot(piece_.normal), 0.0F) / (length * length);
         pieces_.push_back(piece_);
-        ray_of_.push_back(static_cast<std::uint32_t>(sight_rays_.size() - 1));
+        sight_of_.push_back(static_cast<std::uint32_t>(sights_.size() - 1));
     }
 
     /// Aims a ray at a piece, unless the last one arrives on the same part of its surface.
@@ -211,11 +192,8 @@ class TargetSampler {
         if (last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
             flat_normal_.dot(last_normal_) > 0.9F)
             return;
-        const auto [range, direction] = arrival_of(middle);
-        sight_rays_.push_back({{Eigen::Vector3f::Zero(), direction},
-                               range,
-                               std::fabs(flat_normal_.dot(direction)),
-                               weld_m_});
+        sights_.push_back(
+            {middle, std::fabs(flat_normal_.dot(arrival_of(middle).direction)), weld_m_});
         last_point_ = middle;
         last_normal_ = flat_normal_;
     }
@@ -236,8 +214,8 @@ class TargetSampler {
     Sample piece_{};
 
     std::vector<Sample> pieces_;
-    std::vector<std::uint32_t> ray_of_;
-    std::vector<SightRay> sight_rays_;
+    std::vector<std::uint32_t> sight_of_;
+    std::vector<SightPoint> sights_;
     std::optional<Eigen::Vector3f> last_point_;
     Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
 };

@@ -131,14 +131,12 @@ void add_water_surface(const View& view, const Scene& scene, const VisibilityEng
     if (!surface || !scene.water_surface->wind_m_s) return;
     const auto material = static_cast<std::uint32_t>(scene.materials.size());
     const std::vector<Sample> cells = SurfaceCutter(*surface, view, material).samples;
-    std::vector<Ray> rays;
-    rays.reserve(cells.size());
+    std::vector<SightPoint> sights;
     for (const Sample& cell : cells)
-        rays.push_back({Eigen::Vector3f::Zero(), cell.position.normalized()});
-    std::vector<Intersection> hits(rays.size());
-    engine.intersect(T_world_sensor, rays, hits);
+        sights.push_back({cell.position});
+    const std::vector<bool> seen = engine.seen(T_world_sensor, sights);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (hits[k].distance_m < cells[k].position.norm()) continue;
+        if (!seen[k]) continue;
         samples.items.push_back(cells[k]);
         if (motion.is_still()) continue;
         Eigen::Vector3f& place = samples.items.back().position;

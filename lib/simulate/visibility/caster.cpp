@@ -291,8 +291,7 @@ Facet Caster::placed_facet(std::uint32_t index) const {
     return facet;
 }
 
-void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
-                       float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
+void Caster::trace(const RayList& list, std::span<std::uint32_t> facets) const {
     if (placed_trees_.empty()) {
         std::array<TracedMesh, 2> parts;
         for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -300,19 +299,22 @@ void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3
             parts[k].facets = facets_ + parts[k].first_facet;
         }
         const TracedLayer own{trees_->trees[0].get(), parts};
-        trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
+        trace_packets({&own, 1}, list, facets);
         return;
     }
     std::array<TracedLayer, 2> layers;
     for (std::size_t k = 0; k < placed_trees_.size(); ++k)
         layers[k] = {placed_trees_[k]->tree.get(), placed_trees_[k]->meshes};
-    trace_packets(std::span(layers).first(placed_trees_.size()), origins, directions, reach_m,
-                  spread, facets);
+    trace_packets(std::span(layers).first(placed_trees_.size()), list, facets);
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
                   float reach_m, std::span<std::uint32_t> facets, RaySpread spread) const {
-    cast_from({&origin, 0}, directions, reach_m, spread, facets);
+    trace({.origins = {&origin, 0},
+           .directions = directions,
+           .reach_m = {&reach_m, 0},
+           .spread = spread},
+          facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
@@ -324,7 +326,17 @@ void Caster::cast(std::span<const Eigen::Vector3f> origins,
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions, float reach_m,
                   std::span<std::uint32_t> facets) const {
-    cast_from({origins.data(), 1}, directions, reach_m, RaySpread::close, facets);
+    trace({.origins = {origins.data(), 1}, .directions = directions, .reach_m = {&reach_m, 0}},
+          facets);
+}
+
+void Caster::cast_any(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
+                      std::span<const float> reach_m, std::span<std::uint32_t> facets) const {
+    trace({.origins = {&origin, 0},
+           .directions = directions,
+           .reach_m = {reach_m.data(), 1},
+           .any_hit = true},
+          facets);
 }
 
 }  // namespace sonarsim

@@ -14,7 +14,7 @@
 
 namespace sonarsim {
 
-struct RayOrigins;
+struct RayList;
 
 /// Wraps Embree: finds the first triangle that a ray meets, the same on every processor.
 class Caster {
@@ -49,6 +49,10 @@ class Caster {
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               float reach_m, std::span<std::uint32_t> facets) const;
 
+    /// Rays from one point: any facet that direction i meets within `reach_m[i]`, or `nothing`.
+    void cast_any(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
+                  std::span<const float> reach_m, std::span<std::uint32_t> facets) const;
+
     /// False if a ray surely meets nothing: it starts outside of the box around the whole scene and
     /// leads away from it.
     bool may_meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
@@ -75,8 +79,7 @@ class Caster {
     Caster(std::shared_ptr<const Trees> trees,
            std::vector<std::shared_ptr<const PlacedTree>> placed_trees);
     static std::shared_ptr<Trees> make_trees(const Scene& scene);
-    void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
-                   float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const;
+    void trace(const RayList& list, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
     void find_box();
 

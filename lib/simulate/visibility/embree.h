@@ -42,30 +42,38 @@ inline float flush_to_zero(float component) {
     return std::fabs(component) < rest ? 0.0F : component;
 }
 
-/// rtcIntersect8; the arguments are Embree's own. `close`: the rays lie close together. Embree then
+/// rtcIntersect8 or, if `any_hit`, rtcOccluded8. `close`: the rays lie close together. Embree then
 /// traverses its tree with the whole packet; otherwise it follows each ray where the packet
 /// divides. Filters of the meshes get `context`.
 #if SONARSIM_EMBREE == 3
 using QueryContext = RTCIntersectContext;
 
-inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays,
-                        QueryContext& context) {
+inline void trace_8(const int* valid, RTCScene tree, bool any_hit, bool close, RTCRayHit8& rays,
+                    QueryContext& context) {
     rtcInitIntersectContext(&context);
     context.flags =
         close ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    if (any_hit) return rtcOccluded8(valid, tree, &context, &rays.ray);
     rtcIntersect8(valid, tree, &context, &rays);
 }
 #else
 using QueryContext = RTCRayQueryContext;
 
-inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays,
-                        QueryContext& context) {
+inline void trace_8(const int* valid, RTCScene tree, bool any_hit, bool close, RTCRayHit8& rays,
+                    QueryContext& context) {
     rtcInitRayQueryContext(&context);
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.flags = close ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    arguments.context = &context;
-    rtcIntersect8(valid, tree, &rays, &arguments);
+    const auto set = [&](auto& arguments) {
+        arguments.flags = close ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+        arguments.context = &context;
+    };
+    RTCOccludedArguments any;
+    RTCIntersectArguments nearest;
+    rtcInitOccludedArguments(&any);
+    rtcInitIntersectArguments(&nearest);
+    set(any);
+    set(nearest);
+    if (any_hit) return rtcOccluded8(valid, tree, &rays.ray, &any);
+    rtcIntersect8(valid, tree, &rays, &nearest);
 }
 #endif
 

@@ -40,6 +40,7 @@ void put_mesh(RTCDevice device, const EmbreeTree& into, unsigned int index,
         std::copy(triangles.begin(), triangles.end(),
                   static_cast<std::array<std::uint32_t, 3>*>(corners));
         rtcSetGeometryIntersectFilterFunction(mesh, &keep_hits);
+        rtcSetGeometryOccludedFilterFunction(mesh, &keep_hits);
         rtcCommitGeometry(mesh);
         rtcAttachGeometryByID(into.get(), mesh, index);
     }

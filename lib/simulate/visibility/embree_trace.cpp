@@ -38,6 +38,7 @@ struct TracedRay {
 
     Eigen::Vector3f origin, direction;
     float origin_m;  ///< sum of the origin's absolute coordinates
+    float reach_m;
     int count;
     float nearest_m;
     std::array<Candidate, most> met;
@@ -95,7 +96,6 @@ struct TracedRay {
 struct Query {
     QueryContext context;
     const TracedLayer* layer;
-    float reach_m;
     std::array<TracedRay, packet> rays;
 };
 
@@ -115,20 +115,18 @@ void keep_hits(const RTCFilterFunctionNArguments* hits) {
         float& embree_m = RTCRayN_tfar(hits->ray, packet, k);
         const Candidate found =
             ray.candidate(mesh.facet(triangle), mesh.first_facet + triangle, embree_m);
-        if (found.distance_m <= query.reach_m && ray.take(found))
+        if (found.distance_m <= ray.reach_m && ray.take(found))
             embree_m = ray.embree_reach(found.distance_m);
         else
             hits->valid[k] = 0;
     }
 }
 
-void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
-                   std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
+void trace_packets(std::span<const TracedLayer> layers, const RayList& list,
                    std::span<std::uint32_t> facets) {
     alignas(64) RTCRayHit8 rays;
     alignas(64) int valid[packet];
     Query query;
-    query.reach_m = reach_m;
     for (int k = 0; k < packet; ++k) {
         rays.ray.tnear[k] = 0.0F;
         rays.ray.time[k] = 0.0F;
@@ -136,16 +134,17 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
         rays.ray.id[k] = 0;
         rays.ray.flags[k] = 0;
     }
-    for (std::size_t first = 0; first < directions.size(); first += packet) {
+    for (std::size_t first = 0; first < list.directions.size(); first += packet) {
         const int count =
-            static_cast<int>(std::min<std::size_t>(packet, directions.size() - first));
+            static_cast<int>(std::min<std::size_t>(packet, list.directions.size() - first));
         for (int k = 0; k < packet; ++k) {
             // A short packet repeats its last ray, so the idle lanes are harmless.
             const std::size_t i = first + std::min(k, count - 1);
             TracedRay& own = query.rays[k];
-            own.origin = origins.of(i);
-            own.direction = directions[i].unaryExpr(&flush_to_zero);
+            own.origin = list.origins.of(i);
+            own.direction = list.directions[i].unaryExpr(&flush_to_zero);
             own.origin_m = own.origin.lpNorm<1>();
+            own.reach_m = list.reach_m.of(i);
             own.count = 0;
             rays.ray.org_x[k] = own.origin.x();
             rays.ray.org_y[k] = own.origin.y();
@@ -153,7 +152,7 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
             rays.ray.dir_x[k] = own.direction.x();
             rays.ray.dir_y[k] = own.direction.y();
             rays.ray.dir_z[k] = own.direction.z();
-            rays.ray.tfar[k] = own.embree_reach(reach_m);
+            rays.ray.tfar[k] = own.embree_reach(own.reach_m);
             valid[k] = k < count ? -1 : 0;
         }
         for (const TracedLayer& layer : layers) {
@@ -162,7 +161,8 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
                 rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
                 rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
             }
-            intersect_8(valid, layer.tree, spread == RaySpread::close, rays, query.context);
+            trace_8(valid, layer.tree, list.any_hit, list.spread == RaySpread::close, rays,
+                    query.context);
         }
         for (int k = 0; k < count; ++k)
             facets[first + k] = query.rays[k].facet();

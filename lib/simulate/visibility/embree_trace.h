@@ -36,23 +36,32 @@ struct TracedLayer {
     std::span<const TracedMesh> meshes = {};
 };
 
-/// Origins of rays: one common point, or one for each ray.
-struct RayOrigins {
-    const Eigen::Vector3f* first = nullptr;
-    std::size_t step = 0;  ///< 0: all rays share the first origin
+/// One value for all rays, or one for each ray.
+template <class T>
+struct PerRay {
+    const T* first = nullptr;
+    std::size_t step = 0;  ///< 0: all rays share the first
 
-    const Eigen::Vector3f& of(std::size_t ray) const { return first[step * ray]; }
+    const T& of(std::size_t ray) const { return first[step * ray]; }
+};
+
+/// The rays of a query.
+struct RayList {
+    PerRay<Eigen::Vector3f> origins;
+    std::span<const Eigen::Vector3f> directions;
+    PerRay<float> reach_m;
+    bool any_hit = false;  ///< any facet within reach, not the nearest
+    RaySpread spread = RaySpread::close;
 };
 
 /// Traces rays in packets to the nearest hit in any layer: `facets[i]` is the facet that ray i
-/// meets within `reach_m`, or RTC_INVALID_GEOMETRY_ID. All meshes need `keep_hits` as their filter.
+/// meets within its reach, or RTC_INVALID_GEOMETRY_ID. All meshes need `keep_hits` as their filter.
 ///
 /// Embree only proposes facets. Its distances contain estimates of reciprocals, in which makers of
 /// processors differ. Which facet is the nearest, and whether it is in reach, follows from the
 /// distance of the facet's plane. Among facets of one plane, to within rounding, the one with the
 /// least number counts.
-void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
-                   std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
+void trace_packets(std::span<const TracedLayer> layers, const RayList& list,
                    std::span<std::uint32_t> facets);
 
 /// The filter of a mesh that trace_packets() meets: takes down Embree's hits.

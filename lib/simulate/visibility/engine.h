@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "input/scene/scene.h"
+#include "simulate/visibility/caster.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
@@ -83,6 +85,13 @@ struct Intersection {
     std::uint32_t instance;  ///< index into Scene::instances
 };
 
+/// A point that the sonar may see.
+struct SightPoint {
+    Eigen::Vector3f position;  ///< sensor frame, m
+    float cosine = 1.0F;       ///< cosine of the angle of incidence on the surface that it lies on
+    float slack_m = 0.0F;      ///< largest distance of the point from that surface
+};
+
 /// A view from a pose.
 struct Sight {
     View view;
@@ -101,8 +110,12 @@ class VisibilityEngine {
     virtual Samples visible_surface(const View& view, const Pose& T_world_sensor) const = 0;
 
     /// The first surface that each ray meets. `intersections` has as many elements as `rays`.
-    virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                           std::span<Intersection> intersections) const = 0;
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const;
+
+    /// True for the points that no surface hides from the sonar. Surface that is nearer by no more
+    /// than the slack of the point and the rounding of its plane does not hide it.
+    std::vector<bool> seen(const Pose& T_world_sensor, std::span<const SightPoint> points) const;
 
     /// The same along the paths of sound from the sonar, which may bend: a ray starts at an
     /// apparent place, leads away from the sonar, and ends at another apparent place within
@@ -125,6 +138,18 @@ class VisibilityEngine {
 
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
+
+  protected:
+    /// `scene` must outlive it, and is what `caster` traces.
+    VisibilityEngine(const Scene& scene, Caster caster)
+        : scene_(scene), caster_(std::move(caster)) {}
+
+    const Scene& scene() const { return scene_; }
+    const Caster& caster() const { return caster_; }
+
+  private:
+    const Scene& scene_;
+    Caster caster_;
 };
 
 }  // namespace sonarsim

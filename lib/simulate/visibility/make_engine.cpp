@@ -20,7 +20,7 @@ constexpr int density_over_many_triangles = 4;
 class StripsOrRays final : public VisibilityEngine {
   public:
     StripsOrRays(const Scene& scene, const Caster& caster, bool by_strips)
-        : rays_(make_rays_engine(scene, caster)) {
+        : VisibilityEngine(scene, caster), rays_(make_rays_engine(scene, caster)) {
         if (by_strips) strips_.emplace(scene, caster);
         if (scene.triangles.size() > many_triangles)
             dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
@@ -30,11 +30,6 @@ class StripsOrRays final : public VisibilityEngine {
         if (strips_) return strips_->visible_surface(view, T_world_sensor);
         const bool dense = dense_rays_ && !view.energies_add;
         return (dense ? dense_rays_ : rays_)->visible_surface(view, T_world_sensor);
-    }
-
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        rays_->intersect(T_world_sensor, rays, intersections);
     }
 
     const VisibilityEngine& by_rays() const override { return *rays_; }

@@ -6,7 +6,6 @@
 
 #include "core/elementary.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/intersect.h"
 #include "simulate/visibility/octree/tree.h"
 
 namespace sonarsim {
@@ -58,8 +57,8 @@ class Votes {
         for (std::size_t k = 0; k < votes_.size(); ++k) {
             const Vote& vote = votes_[k];
             const bool first = k == 0 || votes_[k - 1].pixel != vote.pixel;
-            visible = first ||
-                      (visible && vote.range_m - votes_[k - 1].range_m <= gap_leaves * leaf_m_);
+            visible =
+                first || (visible && vote.range_m - votes_[k - 1].range_m <= gap_leaves * leaf_m_);
             if (!visible) continue;
             samples.items.push_back(sample_of(vote, scene));
             ++samples.beam_begin[vote.beam + 1];
@@ -116,27 +115,18 @@ class Votes {
 class OctreeEngine final : public VisibilityEngine {
   public:
     OctreeEngine(const Scene& scene, const OctreeOptions& options)
-        : scene_(scene),
-          caster_(scene),
-          tree_(scene, caster_, options.leaf_m) {}
+        : VisibilityEngine(scene, Caster(scene)), tree_(scene, caster(), options.leaf_m) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const ViewVolume volume(
-            view, {T_world_sensor.rotation, T_world_sensor.translation - scene_.origin});
+            view, {T_world_sensor.rotation, T_world_sensor.translation - scene().origin});
         Votes votes(view, volume, tree_.leaf_m());
         for (const TileInView& tile : tree_.tiles_in_view(volume))
             votes.add(tile);
-        return votes.samples(scene_);
-    }
-
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        intersect_rays(caster_, scene_.origin, T_world_sensor, rays, intersections);
+        return votes.samples(scene());
     }
 
   private:
-    const Scene& scene_;
-    Caster caster_;
     mutable Octree tree_;  ///< grows, which changes no result
 };
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/intersect.h"
 #include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/column_samples.h"
@@ -30,43 +29,37 @@ constexpr double sag_of_sight_lines_m = 0.01;
 class RaysEngine final : public VisibilityEngine {
   public:
     RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, int density)
-        : scene_(&scene),
-          caster_(std::move(caster)),
+        : VisibilityEngine(scene, std::move(caster)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
           density_(density) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
-        const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
+        const LocalPose pose = local_pose(T_world_sensor, scene().origin);
         Samples samples;
         const int together = beams_together(view, sampling);
         for (int begin = 0; begin < view.beams; begin += together) {
             const BeamRange beams{begin, std::min(begin + together, view.beams)};
-            const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling, beams,
+            const RayColumns columns = cast_ray_columns(caster(), view, pose, sampling, beams,
                                                         water(sag_by_bin * view.bin_m()));
             add_column_samples(view, sampling, columns, beams, samples);
         }
         return samples;
     }
 
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override {
-        intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
-    }
-
     void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
                           std::span<Intersection> intersections) const override {
-        if (!scene_->sound_profile) return intersect(T_world_sensor, rays, intersections);
-        intersect_bent_rays(caster_, water(sag_of_sight_lines_m),
-                            local_pose(T_world_sensor, scene_->origin), rays, reach_m,
+        if (!scene().sound_profile) return intersect(T_world_sensor, rays, intersections);
+        intersect_bent_rays(caster(), water(sag_of_sight_lines_m),
+                            local_pose(T_world_sensor, scene().origin), rays, reach_m,
                             intersections);
     }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         std::vector<Pose> T_local_body(T_world_body.begin(), T_world_body.end());
         for (Pose& pose : T_local_body)
-            pose.translation -= scene_->origin;
-        return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), T_world_body,
+            pose.translation -= scene().origin;
+        return std::make_unique<RaysEngine>(scene(), caster().moved(T_local_body), T_world_body,
                                             density_);
     }
 
@@ -91,11 +84,9 @@ class RaysEngine final : public VisibilityEngine {
     }
 
     BentWater water(double sag_m) const {
-        return {scene_->sound_profile.get(), scene_->origin.z(), sag_m};
+        return {scene().sound_profile.get(), scene().origin.z(), sag_m};
     }
 
-    const Scene* scene_;
-    Caster caster_;
     std::vector<Pose> T_world_body_;
     int density_;
 };

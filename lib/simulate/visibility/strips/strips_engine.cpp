@@ -1,16 +1,15 @@
 #include "simulate/visibility/strips/strips_engine.h"
 
-#include "simulate/visibility/intersect.h"
 #include "simulate/visibility/strips/column_scan.h"
 #include "simulate/visibility/view_volume.h"
 
 namespace sonarsim {
 
 StripsEngine::StripsEngine(const Scene& scene, const Caster& caster)
-    : scene_(&scene), caster_(caster), mesh_(make_clusters(scene)) {}
+    : VisibilityEngine(scene, caster), mesh_(make_clusters(scene)) {}
 
 Samples StripsEngine::visible_surface(const View& view, const Pose& T_world_sensor) const {
-    const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
+    const LocalPose pose = local_pose(T_world_sensor, scene().origin);
     const StripRule rule = strip_rule(view);
     const std::vector<std::uint32_t> clusters = clusters_in(view, T_world_sensor);
     Samples samples;
@@ -22,11 +21,6 @@ Samples StripsEngine::visible_surface(const View& view, const Pose& T_world_sens
         samples.dropped += triangles.dropped;
     }
     return samples;
-}
-
-void StripsEngine::intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                             std::span<Intersection> intersections) const {
-    intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
 }
 
 /// Adds the samples of a frame's beams.
@@ -46,7 +40,7 @@ void StripsEngine::scan(const ColumnFrame& frame, const StripTriangles& triangle
 }
 
 std::vector<std::uint32_t> StripsEngine::clusters_in(const View& view, Pose T_local_sensor) const {
-    T_local_sensor.translation -= scene_->origin;
+    T_local_sensor.translation -= scene().origin;
     const ViewVolume volume(view, T_local_sensor);
     const Eigen::Vector3f position = T_local_sensor.translation.cast<float>();
     std::vector<std::uint32_t> out;

@@ -21,16 +21,12 @@ class StripsEngine final : public VisibilityEngine {
     StripsEngine(const Scene& scene, const Caster& caster);
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override;
-    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
-                   std::span<Intersection> intersections) const override;
 
   private:
     std::vector<std::uint32_t> clusters_in(const View& view, Pose T_local_sensor) const;
     void scan(const ColumnFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
               const StripRule& rule, Samples& samples) const;
 
-    const Scene* scene_;
-    Caster caster_;
     ClusterMesh mesh_;
 };
 
