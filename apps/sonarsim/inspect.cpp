@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/mission/scene_keys.h"
-#include "input/scene/find_material.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/images/read_image.h"

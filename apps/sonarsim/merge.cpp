@@ -9,7 +9,6 @@
 
 #include "commands.h"
 #include "logging.h"
-#include "progress.h"
 #include "run/checks/warning.h"
 #include "signals.h"
 

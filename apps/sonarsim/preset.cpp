@@ -12,7 +12,6 @@
 #include "core/units.h"
 #include "input/mission/parse.h"
 #include "logging.h"
-#include "simulate/calibrated/example_bottoms.h"
 #include "simulate/calibrated/expected_echo.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"

@@ -17,7 +17,6 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "output/dataset/layout.h"
-#include "progress.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "run/job/variants.h"

@@ -13,7 +13,6 @@
 
 #include "core/text.h"
 #include "logging.h"
-#include "progress.h"
 #include "simulate/assembly/placed_files.h"
 
 namespace sonarsim {

@@ -23,7 +23,6 @@
 #include "logging.h"
 #include "mission_options.h"
 #include "output/dataset/metadata.h"
-#include "progress.h"
 #include "run/checks/find_warnings.h"
 #include "run/checks/measured_error.h"
 #include "run/job/folder.h"

@@ -9,7 +9,6 @@
 #include "commands.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "progress.h"
 #include "signals.h"
 
 namespace sonarsim {

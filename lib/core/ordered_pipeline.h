@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <atomic>
@@ -8,9 +9,57 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/thread_sanitizer.h"
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define SONARSIM_THREAD_SANITIZER
+#endif
+#endif
+
+// Marks a function that TBB calls. Such a function reads its arguments before it can call
+// tsan_acquire(), and the thread sanitizer would report this. The sanitizer skips the function
+// itself and still checks everything that it calls.
+#ifdef SONARSIM_THREAD_SANITIZER
+#define SONARSIM_CALLED_BY_TBB __attribute__((no_sanitize("thread")))
+#else
+#define SONARSIM_CALLED_BY_TBB
+#endif
+
+#ifdef SONARSIM_THREAD_SANITIZER
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
 
 namespace sonarsim {
+
+// Debian's TBB is not built for the thread sanitizer, so the sanitizer does not see that TBB orders
+// the threads it hands work to. These functions announce that order; in other builds they do
+// nothing.
+
+/// Makes what this thread has written visible to threads that call tsan_acquire() with the same
+/// address.
+inline void tsan_release([[maybe_unused]] const void* address) {
+#ifdef SONARSIM_THREAD_SANITIZER
+    __tsan_release(const_cast<void*>(address));
+#endif
+}
+
+inline void tsan_acquire([[maybe_unused]] const void* address) {
+#ifdef SONARSIM_THREAD_SANITIZER
+    __tsan_acquire(const_cast<void*>(address));
+#endif
+}
+
+/// Calls tsan_release() at the end of a scope, even if an exception ends it.
+struct ReleaseAtEnd {
+    const void* address;
+    ~ReleaseAtEnd() { tsan_release(address); }
+};
+
+/// Calls tsan_acquire() at the end of a scope, even if an exception ends it.
+struct AcquireAtEnd {
+    const void* address;
+    ~AcquireAtEnd() { tsan_acquire(address); }
+};
 
 /// Calls `work(i)` for 0 to count - 1, several at a time on the threads of the arena, and `finish`
 /// with each result, one at a time and in the order of i. At most `in_flight` results exist at
@@ -56,6 +105,20 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, feed) &
             tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, run) &
             tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, take));
+}
+
+/// Calls `body` for 0 to count - 1 on all threads of the arena, in any order.
+template <class Body>
+void in_parallel(std::size_t count, const Body& body) {
+    char begun = 0;
+    char done = 0;
+    const AcquireAtEnd all{&done};
+    tsan_release(&begun);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
+        tsan_acquire(&begun);
+        const ReleaseAtEnd one{&done};
+        body(i);
+    });
 }
 
 }  // namespace sonarsim

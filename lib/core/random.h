@@ -2,9 +2,12 @@
 
 #include <immintrin.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+
+#include "core/elementary.h"
 
 namespace sonarsim {
 
@@ -118,6 +121,35 @@ inline PhiloxKey stream_key(std::uint64_t seed, std::uint32_t sensor, std::uint3
         philox({sensor, ping, static_cast<std::uint32_t>(stream), 0x736f6e61U},
                {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     return {block.x0, block.x1};
+}
+
+struct NormalPair {
+    float first, second;
+};
+
+/// Two independent draws of normal(0, 1) from a random word, by Box and Muller: 20 bits make the
+/// radius, 12 the angle. The greatest radius is 5.4; one draw in 15 million would lie beyond.
+/// Without branches, so that loops vectorise.
+inline NormalPair normal_pair(std::uint32_t word) {
+    const auto upper = static_cast<float>(static_cast<std::int32_t>(word >> 12));
+    const auto lower = static_cast<float>(static_cast<std::int32_t>(word & 0xFFFU));
+    const float radius = std::sqrt(-2.0F * natural_log((upper + 0.5F) * 0x1p-20F));
+    const SinCosFloat angle =
+        sincos_small(static_cast<float>(2.0 * pi) * ((lower + 0.5F) * 0x1p-12F - 0.5F));
+    return {radius * angle.cos, radius * angle.sin};
+}
+
+/// The name of a cell of a lattice in its random draws: the lowest 21 bits of its x and y and 22 of
+/// its z. Cells that lie 2^21 edges apart share draws, 42 km at 2 cm.
+struct CellName {
+    std::uint32_t low, high;
+};
+
+inline CellName cell_name(std::int32_t x, std::int32_t y, std::int32_t z) {
+    constexpr std::uint32_t bits_21 = 0x1FFFFF;
+    const auto split = static_cast<std::uint32_t>(z);
+    return {.low = (static_cast<std::uint32_t>(x) & bits_21) | split << 21,
+            .high = (static_cast<std::uint32_t>(y) & bits_21) | split >> 11 << 21};
 }
 
 }  // namespace sonarsim

@@ -1,7 +1,7 @@
 #include "simulate/assembly/brightness.h"
 
 #include "simulate/assembly/engines.h"
-#include "simulate/assembly/sample_pings.h"
+#include "simulate/assembly/poses.h"
 #include "support/calibrated.h"
 #include "support/small_mission.h"
 

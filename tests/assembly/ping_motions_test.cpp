@@ -1,6 +1,5 @@
-#include "simulate/assembly/ping_motions.h"
-
 #include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/sonar/sonar_at_pose.h"

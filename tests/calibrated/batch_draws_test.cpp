@@ -1,5 +1,4 @@
 #include "core/lanes.h"
-#include "core/normal_pair.h"
 #include "core/random.h"
 #include "simulate/calibrated/echo_grid.h"
 #include "simulate/calibrated/normals.h"

@@ -1,5 +1,3 @@
-#include "simulate/calibrated/element_errors.h"
-
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/sonar_equation.h"
 #include "support/calibrated.h"

@@ -1,5 +1,5 @@
 #include "simulate/reference/energy_reference.h"
-#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"

@@ -2,7 +2,6 @@
 
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/example_bottoms.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -105,7 +104,8 @@ TEST_SUITE("calibrated") {
              {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n    instrument: {",
                    20.0, 20.0},
               Case{"micron", "    sector_deg: 1\n    step_deg: 1\n    instrument: {", 20.0, 40.0},
-              Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1, expansion: 1}, ", 0.0, 20.0}}) {
+              Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1, expansion: 1}, ",
+                   0.0, 20.0}}) {
             CAPTURE(c.preset);
             const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
             const CalibratedModel& model = calibrated_model_of(sonar);

@@ -1,6 +1,6 @@
-#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
 #include "simulate/trace/visible_surface.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 #include "support/calibrated.h"
 
 using namespace sonarsim;

@@ -3,6 +3,7 @@
 #include "simulate/calibrated/range_response.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
+#include "support/patches.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -151,15 +152,33 @@ TEST_SUITE("calibrated") {
             const Sonar sonar = make_sonar(config, {});
             std::array<std::vector<double>, 4> quarters;
             for (std::uint32_t ping = 0; ping < 200; ++ping) {
-                const std::vector<float> image = image_of_samples(
-                    calibrated_model_of(sonar), sonar.settings.view, {}, {.random = 2}, {},
-                    {5, 6, ping});
+                const std::vector<float> image =
+                    image_of_samples(calibrated_model_of(sonar), sonar.settings.view, {},
+                                     {.random = 2}, {}, {5, 6, ping});
                 for (std::size_t k = 0; k < image.size(); ++k)
                     quarters[4 * k / image.size()].push_back(image[k]);
             }
             // 40,000 exponential values or more, correlated over a few: 0.01 within 2.5 %.
             for (const std::vector<double>& values : quarters)
                 CHECK(mean(values) == test::approx(0.01).epsilon(0.025));
+        }
+    }
+
+    TEST_CASE("levels: noise_db -300 is no noise, whatever the gain") {
+        for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan}) {
+            SonarConfig config = bare_sonar(default_sonar(kind), 1e6);
+            config.instrument.receiver.tvg_log = 40.0;
+            config.instrument.receiver.tvg_absorption = true;
+            for (const double source_db : {0.0, 200.0}) {
+                config.instrument.source_level_db = source_db;
+                set_range(config, 200.0, 400.0, 100);
+                const Sonar sonar = make_sonar(config, {});
+                const auto image = image_of_samples(calibrated_model_of(sonar), sonar.settings.view,
+                                                    {}, {.random = 2});
+                CAPTURE_ALL(name_of(kind), source_db);
+                CHECK(std::ranges::max(image) == 0.0F);
+                CHECK(std::ranges::max(calibrated_model_of(sonar).noise_values) == 0.0F);
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 #include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/form_look.h"
-#include "simulate/calibrated/piston.h"
 #include "support/labelled.h"
 #include "support/patches.h"
 

@@ -1,5 +1,5 @@
 #include "simulate/calibrated/beamformer.h"
-#include "simulate/calibrated/companding.h"
+#include "simulate/calibrated/receiver_chain.h"
 #include "simulate/calibrated/scatterers.h"
 #include "support/test.h"
 

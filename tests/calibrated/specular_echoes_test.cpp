@@ -1,8 +1,8 @@
 #include "simulate/calibrated/specular_echoes.h"
 
 #include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/model.h"
-#include "simulate/calibrated/piston.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"

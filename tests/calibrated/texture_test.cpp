@@ -1,5 +1,4 @@
-#include "simulate/calibrated/texture.h"
-
+#include "simulate/calibrated/speckle.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,8 +1,8 @@
 // Sound that goes through thin walls.
 
-#include "simulate/calibrated/wall_transmission.h"
+#include "simulate/calibrated/bottom.h"
 #include "simulate/reference/energy_reference.h"
-#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/maps.h"

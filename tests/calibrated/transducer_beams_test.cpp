@@ -2,9 +2,9 @@
 
 #include "core/elementary.h"
 #include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/line_array.h"
 #include "simulate/calibrated/near_field.h"
-#include "simulate/calibrated/piston.h"
 #include "simulate/calibrated/range_response.h"
 #include "support/test.h"
 

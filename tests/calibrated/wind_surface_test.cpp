@@ -1,7 +1,7 @@
 #include "simulate/calibrated/wind_surface.h"
 
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/directivity.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include "core/hash.h"
-#include "core/sha256.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -1,5 +1,4 @@
-#include "core/sorted_table.h"
-
+#include "simulate/trace/cone_beams.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -2,7 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "core/sha256.h"
+#include "core/hash.h"
 #include "support/test.h"
 
 using namespace sonarsim;
@@ -63,7 +63,8 @@ TEST_SUITE("format") {
             for (const unsigned bits : {1U, 4U, 8U, 16U}) {
                 for (const unsigned longest : {1U, 5U, 900U}) {
                     const auto deep = drawn<std::uint16_t>(random, count, bits, longest);
-                    for (const PngFilter filter : {PngFilter::none, PngFilter::up, PngFilter::left}) {
+                    for (const PngFilter filter :
+                         {PngFilter::none, PngFilter::up, PngFilter::left}) {
                         const std::string bytes = png_bytes(deep, width, height, filter);
                         CHECK(read_back<std::uint16_t>(bytes, width, height) == deep);
                     }
@@ -80,8 +81,8 @@ TEST_SUITE("format") {
         const TemporaryFolder folder;
         std::mt19937 random(12);
         for (const auto& [width, height] : {std::pair(1, 1), {37, 11}, {700, 300}}) {
-            const auto values = drawn<std::uint8_t>(
-                random, 3 * static_cast<std::size_t>(width) * height, 8, 20);
+            const auto values =
+                drawn<std::uint8_t>(random, 3 * static_cast<std::size_t>(width) * height, 8, 20);
             std::vector<Rgb> pixels;
             for (std::size_t k = 0; k < values.size(); k += 3)
                 pixels.push_back({values[k], values[k + 1], values[k + 2]});

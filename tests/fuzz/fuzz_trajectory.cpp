@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "input/trajectory/files.h"
-#include "input/trajectory/interpolate.h"
+#include "input/trajectory/trajectory.h"
 #include "target.h"
 
 // The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must

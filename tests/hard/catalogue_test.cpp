@@ -1,10 +1,9 @@
 #include "hard/cases.h"
 #include "input/mission/instrument.h"
-#include "simulate/paper/accumulate.h"
-#include "simulate/reference/image_error.h"
+#include "simulate/paper/echoes.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/sonar/setup.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/test.h"
 

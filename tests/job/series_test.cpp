@@ -4,8 +4,8 @@
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/soundings.h"
-#include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/sonar/setup.h"
 #include "support/npy_data.h"
 
 namespace sonarsim {

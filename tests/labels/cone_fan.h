@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"

@@ -1,6 +1,5 @@
 #include "input/mission/resolved.h"
 
-#include "input/mission/differences.h"
 #include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"
 

@@ -1,7 +1,7 @@
 #include "input/mission/variants.h"
 
 #include "core/text.h"
-#include "input/mission/draw_value.h"
+#include "input/mission/ping_draws.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {

@@ -1,7 +1,5 @@
 #include "simulate/paper/echoes.h"
-#include "simulate/paper/pixel_noise.h"
-#include "simulate/paper/range_noise.h"
-#include "simulate/paper/streaks.h"
+#include "simulate/paper/noise.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/patches.h"

@@ -1,6 +1,5 @@
-#include "simulate/trace/terms.h"
-
 #include "simulate/sonar/sonar.h"
+#include "simulate/trace/ping.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 

@@ -1,7 +1,6 @@
-#include "simulate/product/annotation.h"
-
 #include "simulate/product/contrast.h"
 #include "simulate/product/object_masks.h"
+#include "simulate/product/picture.h"
 #include "support/test.h"
 
 using namespace sonarsim;

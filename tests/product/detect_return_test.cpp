@@ -1,5 +1,4 @@
-#include "simulate/product/detect_return.h"
-
+#include "simulate/product/soundings.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -1,6 +1,6 @@
 #include "simulate/product/fan_bins.h"
 
-#include "simulate/product/even_kernel.h"
+#include "simulate/product/fan.h"
 #include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 

@@ -1,5 +1,5 @@
 #include "simulate/product/bottom.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
 #include "support/test.h"
 

@@ -3,7 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include "simulate/assembly/engines.h"
-#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 #include "support/small_mission.h"

@@ -2,7 +2,6 @@
 
 #include "core/random.h"
 #include "simulate/reference/energy_reference.h"
-#include "simulate/reference/image_error.h"
 #include "simulate/reference/reference_cast.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/calibrated.h"

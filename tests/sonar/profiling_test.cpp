@@ -1,6 +1,5 @@
 #include "simulate/product/bathymetry.h"
 #include "simulate/product/soundings.h"
-#include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "simulate/labels/labels.h"
-#include "simulate/visibility/angles.h"
 #include "simulate/visibility/make_engine.h"
+#include "simulate/visibility/view.h"
 #include "support/sonars.h"
 
 namespace sonarsim::test {

@@ -1,7 +1,7 @@
 #include "support/shapes.h"
 
 #include "core/elementary.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 #include "support/test.h"
 
 namespace sonarsim::shapes {

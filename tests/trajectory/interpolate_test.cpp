@@ -1,5 +1,4 @@
-#include "input/trajectory/interpolate.h"
-
+#include "input/trajectory/trajectory.h"
 #include "support/test.h"
 
 using namespace sonarsim;

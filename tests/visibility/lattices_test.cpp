@@ -1,6 +1,5 @@
 #include "support/lattices.h"
 
-#include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
 #include "support/calibrated.h"

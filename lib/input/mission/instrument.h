@@ -72,20 +72,20 @@ struct PulseConfig {
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    double texture = 1.0;  ///< factor on the patches in dB (simulate/calibrated/texture.h)
+    double texture = 1.0;  ///< factor on the patches in dB (simulate/calibrated/speckle.h)
 };
 
 /// The value that is delivered of several samples.
 enum class SampleRule { maximum, mean };
 
 struct ReceiverConfig {
-    std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
-    double noise_figure_db = 6.0;    ///< noise of the electronics, for noise_db: auto
+    std::optional<double> noise_db;      ///< noise power in a beam; empty: by instrument_levels()
+    double noise_figure_db = 6.0;        ///< noise of the electronics, for noise_db: auto
     double converter_noise_db = -300.0;  ///< behind the gain, re full scale
-    double gain_db = 0.0;            ///< raises all values, as a user's gain does
-    double tvg_log = 40.0;           ///< spreading factor k of k log10 r
-    bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
-    double tvg_from_m = 0.0;         ///< TVG is constant at shorter ranges
+    double gain_db = 0.0;                ///< raises all values, as a user's gain does
+    double tvg_log = 40.0;               ///< spreading factor k of k log10 r
+    bool tvg_absorption = true;          ///< TVG has the term 2 alpha r
+    double tvg_from_m = 0.0;             ///< TVG is constant at shorter ranges
     /// Highest echo level after TVG that is not clipped; empty: by instrument_levels().
     std::optional<double> full_scale_db;
     Companding companding = Companding::gamma;

@@ -39,7 +39,7 @@ template <class Visitor>
 void describe(Visitor& v, NoiseConfig& c) {
     v.number("range_lambda_m", c.range_lambda_m, at_least(0),
              "mean of the exponential range noise; 0 is off, and a side-scan sonar has none");
-    // The number of a cell has 21 bits (core/cell_name.h), so draws repeat after 210 m if the edge
+    // The number of a cell has 21 bits (core/random.h), so draws repeat after 210 m if the edge
     // is a tenth of a millimetre, and sooner with shorter edges.
     v.number("scatterer_m", c.scatterer_m, between(1e-4, 1e3),
              "edge of the cells of the scene that share one draw of the range noise");

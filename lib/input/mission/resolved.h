@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "input/mission/mission.h"
 #include "input/mission/sonar_keys.h"
@@ -20,5 +21,9 @@ Mission portable(const Mission& mission);
 /// machine, has the same hash. The hash does not depend on the output folder and the contents of
 /// files.
 std::string mission_hash(const Mission& mission, SonarKeyTable sonars);
+
+/// The keys in which two missions differ, for messages: " (seed: 7 there, 8 here; and 2 more)",
+/// with the first few of them. "" if they do not differ, or if one is not YAML.
+std::string differing_keys(std::string_view there, std::string_view here);
 
 }  // namespace sonarsim

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "input/mission/ground_map_keys.h"
 #include "input/mission/limits.h"
-#include "input/mission/particles_keys.h"
 #include "input/mission/seabed_keys.h"
 #include "input/mission/trajectory_keys.h"
+#include "input/mission/water_keys.h"
 
 // The keys of the scene, with their defaults and their descriptions as in mission.h.
 

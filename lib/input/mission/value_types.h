@@ -15,8 +15,8 @@
 
 #include "core/text.h"
 #include "input/mission/document.h"
-#include "input/mission/ground_map_keys.h"
 #include "input/mission/limits.h"
+#include "input/mission/seabed_keys.h"
 #include "input/mission/variation_keys.h"
 
 // The types of the keys that have one value. A type reads a value from YAML, writes it as YAML, and

@@ -12,8 +12,6 @@
 #include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "input/scene/copy_number.h"
-#include "input/scene/find_material.h"
 
 namespace sonarsim {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "input/scene/scene.h"
 
 namespace sonarsim {
@@ -45,5 +47,15 @@ double facet_slope(const Material& material);
 /// One warning for each material whose density looks like g/cm^3 or whose speed looks like km/s: a
 /// density below 30 with a speed of sound above that of any gas, or a speed below 20.
 std::vector<std::string> unit_warnings(std::span<const Material> materials);
+
+/// The row of a material of a scene: that of its name, else that of its name without the number of
+/// a copy, so that "Steel.001" finds "Steel". Null if `rows` has neither.
+inline const Material* find_material(std::span<const Material> rows, const std::string& name) {
+    for (const std::string& wanted : {name, without_copy_number(name)}) {
+        const auto row = std::ranges::find(rows, wanted, &Material::name);
+        if (row != rows.end()) return &*row;
+    }
+    return nullptr;
+}
 
 }  // namespace sonarsim

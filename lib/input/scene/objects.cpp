@@ -4,7 +4,7 @@
 #include <map>
 #include <string_view>
 
-#include "input/scene/copy_number.h"
+#include "core/text.h"
 
 namespace sonarsim {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
-#include "input/scene/find_material.h"
+#include "input/scene/materials.h"
 
 namespace sonarsim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 
 namespace sonarsim {
 

@@ -4,10 +4,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/json_depth.h"
+#include "core/input_limits.h"
 #include "core/text.h"
 #include "input/mission/dataset_names.h"
-#include "input/trajectory/interpolate.h"
+#include "input/trajectory/trajectory.h"
 #include "output/dataset/metadata.h"
 
 namespace sonarsim {

@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "simulate/ping/sonar.h"
-#include "simulate/sonar/measured.h"
+#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

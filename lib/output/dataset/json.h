@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "simulate/product/annotation.h"
+#include "simulate/product/picture.h"
 
 // The parts of JSON files as every file of a dataset has them.
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

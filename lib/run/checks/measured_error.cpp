@@ -6,10 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/in_parallel.h"
+#include "core/ordered_pipeline.h"
 #include "core/text.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/sample_pings.h"
 #include "simulate/reference/energy_reference.h"
 #include "simulate/sonar/sonar_at_pose.h"
 

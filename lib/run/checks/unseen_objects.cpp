@@ -9,7 +9,6 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/trace/arrivals.h"
-#include "simulate/visibility/angles.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

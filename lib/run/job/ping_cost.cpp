@@ -12,7 +12,7 @@
 #include "core/file.h"
 #include "output/dataset/encode_ping.h"
 #include "simulate/assembly/engines.h"
-#include "simulate/assembly/sample_pings.h"
+#include "simulate/assembly/poses.h"
 
 namespace sonarsim {
 

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/hash.h"
 #include "core/ordered_pipeline.h"
-#include "core/sha256.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/layout.h"
 #include "run/job/variants.h"

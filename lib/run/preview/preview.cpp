@@ -13,8 +13,8 @@
 #include "run/preview/scene_views.h"
 #include "run/preview/sonar_panel.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/visibility/make_engine.h"
 

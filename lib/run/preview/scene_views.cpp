@@ -7,8 +7,8 @@
 #include "core/units.h"
 #include "run/preview/drawing.h"
 #include "run/preview/object_boxes.h"
-#include "simulate/product/colour_map.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/product/picture.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/in_parallel.h"
+#include "core/ordered_pipeline.h"
 #include "core/text.h"
 #include "run/preview/drawing.h"
 #include "run/preview/fan_style.h"
-#include "simulate/product/colour_map.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
+#include "simulate/product/picture.h"
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "core/in_parallel.h"
+#include "core/ordered_pipeline.h"
 #include "run/report/report.h"
 #include "simulate/assembly/engines.h"
-#include "simulate/sonar/engine_settings.h"
-#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
+#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/clock.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

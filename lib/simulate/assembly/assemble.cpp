@@ -17,13 +17,12 @@
 #include "simulate/assembly/heightmap_part.h"
 #include "simulate/assembly/look_at.h"
 #include "simulate/assembly/particles.h"
-#include "simulate/assembly/ping_motions.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/possible_objects.h"
 #include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
-#include "simulate/sonar/engine_settings.h"
+#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {

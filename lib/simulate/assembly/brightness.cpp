@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/sample_pings.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/visibility/rays/rays_engine.h"

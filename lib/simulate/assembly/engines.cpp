@@ -1,6 +1,6 @@
 #include "simulate/assembly/engines.h"
 
-#include "simulate/sonar/engine_settings.h"
+#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

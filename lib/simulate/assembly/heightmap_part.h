@@ -9,7 +9,7 @@
 #include "input/mission/mission.h"
 #include "input/scene/placed_file.h"
 #include "input/trajectory/trajectory.h"
-#include "simulate/assembly/shapes.h"
+#include "simulate/assembly/scene_store.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {

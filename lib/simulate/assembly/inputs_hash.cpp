@@ -1,7 +1,6 @@
 #include "simulate/assembly/inputs_hash.h"
 
 #include "core/hash.h"
-#include "core/sha256.h"
 #include "core/text.h"
 #include "input/scene/maps/ground_maps.h"
 #include "input/trajectory/files.h"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -7,6 +10,7 @@
 #include "input/mission/mission.h"
 #include "input/scene/placing/bottom.h"
 #include "input/trajectory/trajectory.h"
+#include "simulate/ping/sonar.h"
 #include "simulate/visibility/engine.h"
 
 namespace sonarsim {
@@ -34,5 +38,22 @@ void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& pos
 
 /// The poses that the vehicle's navigation reports; empty if it reports the true ones.
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);
+
+/// Sets the motions of the sonars with moves_in_ping at each pose, by the poses before and after
+/// it. InputError if such a sonar has a setting that supports only a sonar at rest.
+void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
+                      std::span<Sonar> sonars);
+
+/// The poses of at most `most` pings of a sonar that pings at every `every`-th of `poses` poses:
+/// the middles of equal parts of the whole trajectory, whichever part is rendered.
+inline std::vector<std::uint32_t> sample_pings(std::size_t poses, int every, std::size_t most) {
+    const auto step = static_cast<std::size_t>(every);
+    const std::size_t pings = (poses + step - 1) / step;
+    const std::size_t count = std::min(pings, most);
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t k = 0; k < count; ++k)
+        chosen.push_back(static_cast<std::uint32_t>((2 * k + 1) * pings / (2 * count) * step));
+    return chosen;
+}
 
 }  // namespace sonarsim

@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "core/text.h"
 #include "input/mission/variants.h"
-#include "input/scene/copy_number.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"

@@ -18,8 +18,8 @@
 #include "simulate/assembly/heightmap_part.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/poses.h"
+#include "simulate/assembly/scene_store.h"
 #include "simulate/assembly/seabed_part.h"
-#include "simulate/assembly/shapes.h"
 #include "simulate/assembly/sound_profiles.h"
 #include "simulate/water/sound_profile.h"
 

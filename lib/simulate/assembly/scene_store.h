@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -7,14 +9,40 @@
 #include <string>
 #include <vector>
 
+#include "input/mission/mission.h"
 #include "input/scene/gltf/scene_files.h"
+#include "input/scene/gltf/surface_of.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
-#include "simulate/assembly/shapes.h"
-#include "simulate/product/fan_store.h"
+#include "input/scene/surface.h"
+#include "simulate/product/fan_bins.h"
 #include "simulate/visibility/caster.h"
 
 namespace sonarsim {
+
+/// The surfaces of files; files read with the same options share one.
+class Shapes {
+  public:
+    explicit Shapes(SceneFiles& models) : models_(models) {}
+
+    const Surface& of(const PlacedFile& file, const MeshConfig& mesh) {
+        const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
+            return shape.file.native() == file.file.native() && shape.mesh == mesh;
+        });
+        if (known != shapes_.end()) return known->surface;
+        return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, models_)}).surface;
+    }
+
+  private:
+    struct Shape {
+        std::filesystem::path file;
+        MeshConfig mesh;
+        Surface surface;
+    };
+
+    SceneFiles& models_;
+    std::deque<Shape> shapes_;  // a deque, so that references stay valid
+};
 
 /// The variants of a mission often share the files of scenes, the surfaces of objects, the last
 /// bottom made of them, the tree of rays of the first file and the fans of pictures. Not

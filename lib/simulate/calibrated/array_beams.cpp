@@ -9,7 +9,7 @@
 
 #include "core/lanes.h"
 #include "core/units.h"
-#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/instrument_levels.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

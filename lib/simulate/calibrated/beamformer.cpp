@@ -8,7 +8,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/calibrated/element_errors.h"
+#include "simulate/calibrated/directivity.h"
 
 namespace sonarsim {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "input/mission/mission.h"
@@ -8,6 +9,16 @@
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
+
+/// The scattering cross-section per unit of area and solid angle at a grazing angle with this sine.
+double scattering_strength(const Material& sea_bed, double frequency_hz, double sine);
+
+/// Bottoms by which instruments are judged, as in scenes/materials.csv: mud, sand and rock.
+const std::array<Material, 3>& example_bottoms();
+
+inline const Material& example_sand() {
+    return example_bottoms()[1];
+}
 
 /// The mean echo of a flat bottom or of a small target, by closed form. The bottom
 /// is seen at a grazing angle of 20 degrees on the axis of the beam, by an echosounder at normal

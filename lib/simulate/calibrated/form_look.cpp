@@ -10,7 +10,7 @@
 #include "core/elementary.h"
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/calibrated/piece_strengths.h"
-#include "simulate/calibrated/reverberation.h"
+#include "simulate/calibrated/receiver_chain.h"
 #include "simulate/calibrated/scatterer_search.h"
 #include "simulate/calibrated/speckle.h"
 #include "simulate/calibrated/specular_echoes.h"

@@ -5,9 +5,8 @@
 
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/example_bottoms.h"
 #include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/pulse_band.h"
+#include "simulate/calibrated/range_response.h"
 
 namespace sonarsim {
 
@@ -82,6 +81,10 @@ void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& 
         receiver.gain_db;
 }
 
+constexpr double min_noise_db = -300.0;
+constexpr double max_noise_db = 200.0;
+constexpr double max_gain_db = 370.0;
+
 }  // namespace
 
 double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double range_m) {
@@ -117,6 +120,24 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
     const double offset_db = out.relative ? out.source_level_db - source_db : 0.0;
     out.noise_db = receiver.noise_db.value_or(noise_db + offset_db);
     set_received_levels(instrument, water, view, out);
+    return out;
+}
+
+double float_headroom_db(double noise_db) {
+    const double at_least = std::max(0.0, min_noise_db - noise_db);
+    return std::min(at_least, max_noise_db - noise_db);
+}
+
+std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,
+                             const View& view, double absorption_db_per_m, double raised_db) {
+    std::vector<float> out;
+    for (int i = 0; i < view.range_bins; ++i) {
+        const double range = view.range_min_m + (i + 0.5) * view.bin_m();
+        const double gain_db = levels.source_level_db +
+                               tvg_db(receiver, absorption_db_per_m, range) - levels.full_scale_db -
+                               raised_db;
+        out.push_back(static_cast<float>(power_of_db(std::min(gain_db, max_gain_db))));
+    }
     return out;
 }
 

@@ -12,7 +12,7 @@
 #include "simulate/calibrated/beamformer.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/instrument_levels.h"
 #include "simulate/calibrated/transducer_beams.h"
 #include "simulate/calibrated/water.h"
 
@@ -28,7 +28,7 @@ constexpr float max_sine_by_step = 1.1F;
 constexpr double max_by_width = 0.1;
 
 constexpr double no_level_db = -300.0;  // docs/mission.md
-constexpr double max_noise = 1e20;      // levels.h: echoes are at most 1e24
+constexpr double max_noise = 1e20;      // instrument_levels.h: echoes are at most 1e24
 
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};

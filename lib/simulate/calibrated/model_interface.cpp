@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "simulate/calibrated/companding.h"
+#include "simulate/calibrated/bottom.h"
 #include "simulate/calibrated/form_look.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/calibrated/receiver_chain.h"
-#include "simulate/calibrated/wall_transmission.h"
 #include "simulate/calibrated/wind_surface.h"
 
 namespace sonarsim {

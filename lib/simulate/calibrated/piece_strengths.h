@@ -3,8 +3,8 @@
 #include <span>
 
 #include "simulate/calibrated/patches.h"
+#include "simulate/trace/ping_motion.h"
 #include "simulate/trace/traced_ping.h"
-#include "simulate/trace/true_place.h"
 
 namespace sonarsim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/cell_name.h"
+#include "core/random.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/elementary.h"
-#include "core/log_gamma.h"
 #include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 

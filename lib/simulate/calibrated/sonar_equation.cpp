@@ -4,8 +4,8 @@
 
 #include "core/lanes.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/element_errors.h"
-#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/instrument_levels.h"
 #include "simulate/calibrated/line_array.h"
 #include "simulate/trace/arrivals.h"
 

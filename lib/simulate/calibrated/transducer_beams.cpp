@@ -5,10 +5,9 @@
 
 #include "core/units.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/element_errors.h"
+#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/filtered_noise.h"
-#include "simulate/calibrated/levels.h"
-#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/instrument_levels.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

@@ -8,7 +8,7 @@
 #include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/instrument_levels.h"
 
 namespace sonarsim {
 

@@ -5,8 +5,8 @@
 
 #include "input/scene/placing/bottom.h"
 #include "simulate/labels/range_path.h"
+#include "simulate/trace/ping_motion.h"
 #include "simulate/trace/surface_echoes.h"
-#include "simulate/trace/true_place.h"
 
 namespace sonarsim {
 

@@ -9,7 +9,7 @@
 #include "input/scene/placing/bottom.h"
 #include "simulate/labels/object_directions.h"
 #include "simulate/ping/form_image.h"
-#include "simulate/visibility/triangle_runs.h"
+#include "simulate/visibility/clusters.h"
 
 namespace sonarsim {
 

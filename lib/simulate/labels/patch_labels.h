@@ -4,8 +4,8 @@
 #include <span>
 
 #include "input/scene/placing/bottom.h"
+#include "simulate/trace/ping_motion.h"
 #include "simulate/trace/surface_echoes.h"
-#include "simulate/trace/true_place.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

@@ -26,4 +26,13 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
                    std::vector<std::uint32_t>* ends = nullptr);
 
+/// The area-weighted mean of each bin, Eq. 9; 0 in bins without surface. Returns the number of bins
+/// with surface.
+std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);
+
+/// Writes the means of `beams` beams, `by_beam` [beams, range bins], into as many columns of
+/// `image`, [range bins, columns], from the column `first` on.
+void write_beams(std::span<const float> by_beam, int beams, int first, int columns,
+                 std::span<float> image);
+
 }  // namespace sonarsim

@@ -9,7 +9,6 @@
 #include "core/clock.h"
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/paper/accumulate.h"
 #include "simulate/paper/echoes.h"
 #include "simulate/paper/multipath_echoes.h"
 

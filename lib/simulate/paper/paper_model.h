@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "input/mission/mission.h"
-#include "simulate/paper/pixel_noise.h"
-#include "simulate/paper/range_noise.h"
-#include "simulate/paper/streaks.h"
+#include "simulate/paper/noise.h"
 #include "simulate/trace/echo_model.h"
 
 namespace sonarsim {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/cell_name.h"
+#include "core/random.h"
 
 namespace sonarsim {
 

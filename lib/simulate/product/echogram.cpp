@@ -6,7 +6,7 @@
 
 #include "core/text.h"
 #include "simulate/product/bottom.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 
 namespace sonarsim {
 

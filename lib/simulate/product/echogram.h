@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "simulate/ping/sonar.h"
-#include "simulate/product/strip.h"
+#include "simulate/product/picture.h"
 #include "simulate/trace/ping.h"
 
 namespace sonarsim {

@@ -8,8 +8,8 @@
 
 #include "simulate/labels/labels.h"
 #include "simulate/ping/sonar.h"
-#include "simulate/product/annotation.h"
 #include "simulate/product/contrast.h"
+#include "simulate/product/picture.h"
 #include "simulate/trace/ping.h"
 
 namespace sonarsim {

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/rgb.h"
+#include "input/mission/mission.h"
 
 namespace sonarsim {
 
-inline constexpr Rgb ink{235, 235, 235};          ///< axes and labels
+inline constexpr Rgb ink{235, 235, 235};  ///< axes and labels
 inline constexpr Rgb backdrop{16, 16, 20};
 inline constexpr Rgb mark_colour{120, 205, 235};  ///< rings, bearings and marks in a picture
 
@@ -47,5 +49,50 @@ double round_up_125(double value);
 
 /// The greatest of those numbers that is at most `value`, which must be positive.
 double round_down_125(double value);
+
+/// A box of pixels: columns [left, right), rows [top, bottom). Empty where left = right.
+struct PixelBox {
+    int left = 0, right = 0, top = 0, bottom = 0;
+
+    bool is_empty() const { return left == right; }
+    bool operator==(const PixelBox&) const = default;
+};
+
+/// The smallest box around two boxes; an empty box adds nothing.
+inline PixelBox joined(const PixelBox& one, const PixelBox& other) {
+    if (one.is_empty()) return other;
+    if (other.is_empty()) return one;
+    return {std::min(one.left, other.left), std::max(one.right, other.right),
+            std::min(one.top, other.top), std::max(one.bottom, other.bottom)};
+}
+
+// The equally spaced stops of colour maps, for blend(). Brightness grows from stop to stop.
+inline constexpr Rgb copper_colours[] = {{0, 0, 0}, {107, 67, 42}, {204, 127, 81}, {255, 199, 127}};
+inline constexpr Rgb amber_colours[] = {
+    {0, 0, 0}, {96, 44, 0}, {196, 112, 8}, {255, 184, 48}, {255, 244, 208}};
+inline constexpr Rgb sea_colours[] = {{10, 4, 36},    {62, 30, 112},  {44, 96, 146},
+                                      {34, 154, 138}, {140, 208, 84}, {252, 238, 120}};
+
+/// The layout of a strip: a picture of all pings of a sonar with an axis of ranges, px.
+struct StripFrame {
+    int axis_width = 0;   ///< 0: no axis on the left
+    int axis_height = 0;  ///< 0: no axis on top
+    int ping_px = 1;      ///< size of a ping
+    int bin_px = 1;       ///< size of a range bin
+    int width = 0;        ///< with the axis
+    int height = 0;
+};
+
+/// The functions that draw a strip for people. Where pings are rows the axis is on top, where they
+/// are columns it is on the left.
+struct StripStyle {
+    StripFrame (*frame)(const SonarConfig& config, int pings);
+    /// The axis alone.
+    Picture (*axis)(const SonarConfig& config, const StripFrame& frame);
+    /// A row of values: a ping, or a range bin over all pings. `white` is the intensity of the
+    /// brightest colour; `pixels` is the row without the axis on its left.
+    void (*row)(std::span<const float> values, double white, const StripFrame& frame,
+                std::span<Rgb> pixels);
+};
 
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/pose.h"
@@ -32,5 +33,18 @@ int beams_with_sounding(const Ping& ping);
 /// is that at the pose of reception. `T_world_vehicle` is the pose of transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
+
+/// A surface return detected in a beam: the run of bins [begin, end).
+struct DetectedReturn {
+    int begin = 0;
+    int end = 0;          ///< equal to begin if nothing was detected
+    double contrast = 0;  ///< sum over the run of (value - mean of the beam) / sqrt(length)
+    double rival = 0;     ///< the greatest contrast of a run elsewhere; 0: none
+};
+
+/// Finds the run of bins of the greatest contrast. In white noise of unit variance, half of its
+/// square is the log of the likelihood ratio of a surface of constant brightness against no
+/// surface.
+DetectedReturn detect_return(std::span<const double> beam);
 
 }  // namespace sonarsim

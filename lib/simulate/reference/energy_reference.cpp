@@ -9,8 +9,8 @@
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/through_walls.h"
 #include "simulate/trace/visible_surface.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/rays_engine.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -73,4 +73,15 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const View& v
 /// found to within about a tenth, a smaller one is too low; 0 at least.
 double error_without_noise(std::span<const float> image, const Reference& truth);
 
+/// Error of an image A against the truth B; both noise-free and before pixel noise.
+struct ImageError {
+    double relative_l1 = 0.0;  ///< sum |A - B| / sum B
+    double miss_rate = 0.0;    ///< bins occupied only in B, per bin occupied in B
+};
+
+/// The error over the bins that `scored` marks with 1; empty: over all. Two dark images have no
+/// error; against a dark truth any echo is an error of 1.
+ImageError image_error(std::span<const float> image, std::span<const float> truth,
+                       std::span<const std::uint8_t> scored = {});
+
 }  // namespace sonarsim

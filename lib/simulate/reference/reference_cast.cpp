@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

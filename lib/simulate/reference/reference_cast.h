@@ -9,7 +9,6 @@
 #include "input/scene/scene.h"
 #include "simulate/reference/surface_points.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "input/scene/scene.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

@@ -1,15 +1,59 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "input/mission/mission.h"
 #include "input/mission/sonar_keys.h"
 #include "simulate/ping/sonar.h"
-#include "simulate/sonar/record_shape.h"
+#include "simulate/product/picture.h"
 
 namespace sonarsim {
+
+/// The pictures of the records of all pings.
+enum class RecordPictures {
+    none,
+    strip,   ///< one, a row or a column per ping
+    sweeps,  ///< a round one for each sweep of a turning head
+};
+
+/// The record of a kind of sonar: the row of a ping in NAME.npy, which holds all pings of a sensor.
+/// It is a selection of the ping's bins; the writer of a record without pictures may make it of
+/// other values.
+struct RecordShape {
+    std::string_view name;            ///< name of the file; "": the kind has no record
+    std::string_view axis = "range";  ///< the meaning of a ping's values, for dataset.json
+    bool upright = false;             ///< pings are columns: [range, ping]
+    RecordPictures pictures = RecordPictures::none;
+    StripStyle style = {};  ///< for a strip
+    /// The bin of the ping's image [range, beam] that each value shows; -1: none. Null: a record
+    /// has the bins of the sonar's one beam.
+    std::vector<std::int32_t> (*bins)(const SonarConfig& config) = nullptr;
+    /// Adds the description of the values to the sensor's block in dataset.json.
+    void (*describe)(const Sonar& sonar, nlohmann::ordered_json& sensor) = nullptr;
+    /// The record has two sides, port and starboard of the track: XTF and mosaics are made of it.
+    bool two_sides = false;
+
+    /// The number of values of a ping.
+    std::size_t values(const SonarConfig& config) const;
+};
+
+/// The values of a ping's image [range bins, beams] as its record; `blank` where it shows no bin.
+template <class T>
+std::vector<T> record_values(const RecordShape& shape, const SonarConfig& config,
+                             const std::vector<T>& image, T blank) {
+    if (!shape.bins) return image;
+    const std::vector<std::int32_t> bins = shape.bins(config);
+    std::vector<T> values(bins.size(), blank);
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        if (bins[k] >= 0) values[k] = image[static_cast<std::size_t>(bins[k])];
+    }
+    return values;
+}
 
 /// A finished ping, and the pose of the vehicle.
 struct PingView {

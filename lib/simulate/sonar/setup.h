@@ -10,6 +10,8 @@
 #include "core/pose.h"
 #include "input/mission/mission.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/visibility/engine.h"
+#include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {
 
@@ -37,5 +39,17 @@ std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar
 
 /// For metadata: an absent value is null.
 nlohmann::ordered_json number_or_null(const std::optional<double>& value);
+
+/// The settings of a mission's `engine` and `octree` keys. For `auto` see also
+/// simulate/assembly/engines.h.
+EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
+EngineSettings engine_settings(const Mission& mission);
+
+/// The distance from a sonar straight down to the scene, m. Nothing if no surface is below.
+std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor);
+
+/// The measured values for the metadata of a ping: altitude_m() and the values of the sonar's kind.
+/// An absent value is null; the result is null for kinds that measure nothing.
+nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine);
 
 }  // namespace sonarsim

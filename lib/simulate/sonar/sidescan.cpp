@@ -1,10 +1,9 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "simulate/product/colour_map.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
+#include "simulate/product/picture.h"
 #include "simulate/product/sidescan_row.h"
-#include "simulate/product/strip.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/ping_motion.h"
 #include "simulate/trace/taper.h"
-#include "simulate/trace/true_place.h"
 
 namespace sonarsim {
 

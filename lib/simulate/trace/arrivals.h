@@ -9,7 +9,7 @@
 // the trace takes ranges and directions from here; no other code derives them from positions.
 // Positions are apparent places (simulate/visibility/engine.h): half of the two-way time at one
 // speed, in the direction of arrival. So paths are straight here, and the same out and back, even
-// where a profile bends the sound; simulate/trace/true_place.h gives the place in the world.
+// where a profile bends the sound; simulate/trace/ping_motion.h gives the place in the world.
 
 namespace sonarsim {
 

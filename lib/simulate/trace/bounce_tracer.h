@@ -8,7 +8,7 @@
 #include "input/scene/scene.h"
 #include "simulate/trace/bounce_path.h"
 #include "simulate/trace/counters.h"
-#include "simulate/trace/water_mirror.h"
+#include "simulate/trace/visible_water_surface.h"
 #include "simulate/visibility/engine.h"
 #include "simulate/visibility/view.h"
 
@@ -22,7 +22,7 @@ struct BounceHit {
     float reflection = 0.0F;  ///< R_h times `strength`
     float strength = 1.0F;    ///< as in Sample
     std::uint32_t material =
-        no_material;                ///< index into Scene::materials; none: the water's surface
+        no_material;  ///< index into Scene::materials; none: the water's surface
     std::uint32_t instance = no_instance;  ///< as in BouncePath
     float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool exists = false;

@@ -10,7 +10,6 @@
 #include "input/scene/scene.h"
 #include "simulate/trace/ping.h"
 #include "simulate/trace/surface_echoes.h"
-#include "simulate/trace/terms.h"
 #include "simulate/trace/traced_ping.h"
 
 namespace sonarsim {

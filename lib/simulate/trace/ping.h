@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/random.h"
@@ -32,5 +33,28 @@ struct PingDraws {
     /// Draws that belong to the scene: the same for all sonars and pings.
     PhiloxKey of_scene(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };
+
+/// The terms of an echo model that an image is made of. A term that the sonar's settings do not use
+/// adds nothing, even if it is requested here.
+struct Terms {
+    static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+
+    bool direct = true;        ///< echoes of the visible surface
+    bool multipath = true;     ///< echoes over a second surface
+    bool water = true;         ///< echoes of the water: its volume and what KindOfSample says
+    std::size_t random = all;  ///< number of random terms, the first of EchoModelInfo::random_terms
+};
+
+inline constexpr Terms direct_echoes_alone{.multipath = false, .random = 0};
+/// The terms of a reference.
+inline constexpr Terms surface_alone{.multipath = false, .water = false, .random = 0};
+inline constexpr Terms multipath_alone{.direct = false, .random = 0};
+inline constexpr Terms without_random_terms{.random = 0};
+
+/// The image at a stage of the model: 0 is direct echoes alone, 1 adds multipath, and each stage
+/// more adds one of the random terms, as in the paper's Fig. 5(d).
+inline constexpr Terms terms_at_stage(std::size_t stage) {
+    return {.multipath = stage > 0, .random = stage > 0 ? stage - 1 : 0};
+}
 
 }  // namespace sonarsim

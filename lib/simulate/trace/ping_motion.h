@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <vector>
 
 #include "core/pose.h"
 #include "simulate/visibility/engine.h"
+#include "simulate/water/water_ray.h"
 
 namespace sonarsim {
 
@@ -45,5 +47,29 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
 /// Moves the samples of a sonar at rest to where the moving sonar measures them. The visible
 /// surface of a fan is then sorted into beams again.
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples);
+
+/// The true place, in the world, of an apparent place in the sonar's frame. `profile` bends the
+/// sound; null: paths are straight.
+inline Eigen::Vector3d true_place(const SoundProfile* profile, const Pose& T_world_sensor,
+                                  const Eigen::Vector3d& measured) {
+    if (!profile) return T_world_sensor.rotation * measured + T_world_sensor.translation;
+    const double range = measured.norm();
+    return place_of(*profile, T_world_sensor.translation,
+                    T_world_sensor.rotation * (measured / range), range);
+}
+
+/// The same for a ping.
+struct TruePlaces {
+    Pose T_world_sensor;
+    const SoundProfile* profile = nullptr;
+    PingMotion motion = {};
+    ViewShape shape = ViewShape::fan;
+
+    Eigen::Vector3d of(const Eigen::Vector3d& measured) const {
+        return true_place(profile, T_world_sensor,
+                          motion.is_still() ? measured : unmoved_place(motion, shape, measured));
+    }
+    bool is_measured() const { return profile == nullptr && motion.is_still(); }
+};
 
 }  // namespace sonarsim

@@ -12,7 +12,7 @@
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/materials.h"
 #include "simulate/trace/arrivals.h"
-#include "simulate/visibility/view_volume.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -10,9 +10,9 @@
 #include "simulate/trace/counters.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/trace/particles.h"
+#include "simulate/trace/ping.h"
 #include "simulate/trace/ping_motion.h"
 #include "simulate/trace/target_shapes.h"
-#include "simulate/trace/terms.h"
 #include "simulate/trace/visible_surface.h"
 #include "simulate/visibility/engine.h"
 

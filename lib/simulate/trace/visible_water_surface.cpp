@@ -7,7 +7,6 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/trace/water_mirror.h"
 
 namespace sonarsim {
 
@@ -15,7 +14,7 @@ namespace {
 
 // The directions of the view are cut into cells of this size or this many; a cell that spans too
 // much range is cut in four. These numbers are chosen. With them the area in a bin is right to 1 %
-// (water_surface_test.cpp).
+// (visible_water_surface_test.cpp).
 constexpr double first_cell_rad = radians(2.0);
 constexpr double min_cells = 16.0;
 constexpr float max_range_share = 1.0F / 8.0F;

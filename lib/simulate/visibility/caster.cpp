@@ -12,7 +12,6 @@
 
 #include "core/error.h"
 #include "input/scene/mesh_topology.h"
-#include "simulate/visibility/embree_build.h"
 #include "simulate/visibility/embree_trace.h"
 
 namespace sonarsim {

@@ -10,7 +10,6 @@
 #include "core/pose.h"
 #include "input/scene/scene.h"
 #include "simulate/visibility/facet.h"
-#include "simulate/visibility/ray_spread.h"
 
 namespace sonarsim {
 

@@ -51,29 +51,22 @@ std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
 
 /// Appends a cluster of the given triangles.
 void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, ClusterMesh& mesh) {
+    std::vector<TriangleCorners> all;
     std::vector<std::uint32_t> used;
     for (const std::uint32_t triangle : triangles) {
-        const TriangleCorners& corners = scene.triangles[triangle];
+        const TriangleCorners& corners = all.emplace_back(scene.triangles[triangle]);
         used.insert(used.end(), corners.begin(), corners.end());
     }
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
 
-    TriangleCluster cluster{};
+    TriangleCluster cluster{ball_around(scene.vertices, all)};
     cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     cluster.vertices = static_cast<std::uint32_t>(used.size());
     cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
     cluster.triangles = static_cast<std::uint32_t>(triangles.size());
-    Eigen::AlignedBox3f box;
-    for (const std::uint32_t vertex : used) {
-        box.extend(scene.vertices[vertex]);
+    for (const std::uint32_t vertex : used)
         mesh.vertices.push_back(scene.vertices[vertex]);
-    }
-    cluster.centre = box.center();
-    for (const std::uint32_t vertex : used) {
-        cluster.radius_m =
-            std::max(cluster.radius_m, (scene.vertices[vertex] - cluster.centre).norm());
-    }
     for (const std::uint32_t triangle : triangles) {
         const TriangleCorners& corners = scene.triangles[triangle];
         std::array<std::uint8_t, 3> local{};
@@ -103,6 +96,26 @@ ClusterMesh make_clusters(const Scene& scene) {
         add_cluster(scene, std::span(order).subspan(first, count), mesh);
     }
     return mesh;
+}
+
+TriangleRuns::TriangleRuns(const Scene& scene) : origin_(scene.origin) {
+    add_mesh(scene.vertices, scene.triangles);
+    for (const Body& body : scene.bodies)
+        add_mesh(body.vertices, body.triangles);
+    for (const SharedMesh& mesh : scene.shared_meshes)
+        add_mesh(mesh.vertices, mesh.triangles);
+    for (const MeshCopy& copy : scene.copies)
+        copies_.push_back({1 + scene.bodies.size() + copy.mesh, copy.T_world_mesh});
+}
+
+void TriangleRuns::add_mesh(std::span<const Eigen::Vector3f> vertices,
+                            std::span<const std::array<std::uint32_t, 3>> triangles) {
+    Mesh mesh{vertices, triangles, {}, {}};
+    for (std::size_t first = 0; first < triangles.size(); first += run_triangles)
+        mesh.runs.push_back(ball_around(
+            vertices, triangles.subspan(first, std::min(run_triangles, triangles.size() - first))));
+    mesh.whole = ball_around(vertices, triangles);
+    meshes_.push_back(std::move(mesh));
 }
 
 }  // namespace sonarsim

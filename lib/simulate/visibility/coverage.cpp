@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/elementary.h"
-#include "simulate/visibility/angles.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "simulate/visibility/triangle_runs.h"
+#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

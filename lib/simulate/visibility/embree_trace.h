@@ -1,15 +1,40 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "simulate/visibility/embree.h"
 #include "simulate/visibility/facet.h"
-#include "simulate/visibility/ray_spread.h"
 
 namespace sonarsim {
+
+/// Throws std::bad_alloc, or std::runtime_error with the text `doing`, if Embree has failed since
+/// the last call.
+void check_embree(RTCDevice device, const char* doing);
+
+/// The tree of a mesh, for trace_packets().
+EmbreeTree make_tree(RTCDevice device, std::span<const Eigen::Vector3f> vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// Adds a mesh to a tree as its `index`-th. Not finished before commit().
+void put_mesh(RTCDevice device, const EmbreeTree& into, unsigned int index,
+              std::span<const Eigen::Vector3f> vertices,
+              std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// True if the first mesh of the tree, which has as many triangles, has these. All vertices belong
+/// to triangles.
+bool has_first_mesh(const EmbreeTree& tree, std::span<const Eigen::Vector3f> vertices,
+                    std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// Builds what has changed.
+void commit(RTCDevice device, const EmbreeTree& tree);
+
+/// Puts a tree into another, as its `index`-th instance.
+void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
+                  const EmbreeTree& tree, Eigen::Matrix<float, 3, 4> transform);
 
 /// The triangles of an instance of a tree, or of one of a tree's own meshes.
 struct TracedMesh {
@@ -55,7 +80,7 @@ struct RayList {
 };
 
 /// Traces rays in packets to the nearest hit in any layer: `facets[i]` is the facet that ray i
-/// meets within its reach, or RTC_INVALID_GEOMETRY_ID. All meshes need `keep_hits` as their filter.
+/// meets within its reach, or RTC_INVALID_GEOMETRY_ID.
 ///
 /// Embree only proposes facets. Its distances contain estimates of reciprocals, in which makers of
 /// processors differ. Which facet is the nearest, and whether it is in reach, follows from the
@@ -63,8 +88,5 @@ struct RayList {
 /// least number counts.
 void trace_packets(std::span<const TracedLayer> layers, const RayList& list,
                    std::span<std::uint32_t> facets);
-
-/// The filter of a mesh that trace_packets() meets: takes down Embree's hits.
-void keep_hits(const RTCFilterFunctionNArguments* hits);
 
 }  // namespace sonarsim

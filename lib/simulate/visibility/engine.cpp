@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "simulate/visibility/local_pose.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

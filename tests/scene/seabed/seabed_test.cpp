@@ -1,7 +1,7 @@
 #include "input/scene/seabed/seabed.h"
 
 #include "input/scene/gltf/surface_of.h"
-#include "input/scene/seabed/smooth_field.h"
+#include "input/scene/seabed/relief.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -1,5 +1,4 @@
 #include "core/elementary.h"
-#include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/strips/strips_engine.h"

@@ -14,10 +14,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/json_depth.h"
+#include "core/input_limits.h"
 #include "core/known_format.h"
 #include "core/text.h"
-#include "input/scene/gltf/extras.h"
+#include "input/scene/gltf/nodes.h"
 
 namespace sonarsim {
 

@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/copy_number.h"
-#include "input/scene/gltf/extras.h"
+#include "input/scene/gltf/nodes.h"
 #include "input/scene/meshes/read_mesh.h"
 
 namespace sonarsim {

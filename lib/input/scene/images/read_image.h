@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "input/scene/images/image.h"
+#include "input/scene/images/image_place.h"
 
 namespace sonarsim {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "input/scene/images/image.h"
+#include "input/scene/images/image_place.h"
 #include "input/scene/maps/ground_maps.h"
 
 namespace sonarsim {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "input/scene/placing/bottom.h"
 #include "input/scene/surface.h"
@@ -21,5 +24,20 @@ bool lies_below(const Bottom& bottom, const Surface& object);
 /// The rotation that tilts the world's z to the normal of the plane fitted to the bottom on a grid
 /// over the box; the identity if too little of the bottom lies in the box.
 Eigen::Quaterniond slope_of(const Bottom& bottom, const Eigen::AlignedBox2d& box);
+
+/// A convex polygon, counter-clockwise.
+using Hull = std::vector<Eigen::Vector2d>;
+
+double area_of(const Hull& hull);
+
+/// The convex hull of points seen from above.
+Hull hull_of(std::span<const Eigen::Vector3d> points);
+
+Eigen::AlignedBox2d box_of(const Hull& hull);
+
+/// The distance between two convex polygons, 0 when they meet; infinite, after a quick test, if it
+/// is clearly more than `most`.
+double distance_between(const Hull& a, const Hull& b,
+                        double most = std::numeric_limits<double>::infinity());
 
 }  // namespace sonarsim

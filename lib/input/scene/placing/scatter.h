@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "input/scene/placing/bottom.h"
-#include "input/scene/placing/hull.h"
+#include "input/scene/placing/rest.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {

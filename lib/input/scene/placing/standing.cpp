@@ -7,7 +7,7 @@
 
 #include "core/text.h"
 #include "input/scene/meshes/read_mesh.h"
-#include "input/scene/placing/hull.h"
+#include "input/scene/placing/rest.h"
 
 namespace sonarsim {
 

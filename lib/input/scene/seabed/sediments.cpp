@@ -5,7 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "input/scene/seabed/smooth_field.h"
+#include "input/scene/seabed/relief.h"
 
 namespace sonarsim {
 

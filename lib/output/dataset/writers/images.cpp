@@ -3,8 +3,8 @@
 
 #include "output/dataset/json.h"
 #include "output/dataset/writer.h"
+#include "simulate/product/contrast.h"
 #include "simulate/product/fan.h"
-#include "simulate/product/gain.h"
 
 // The files of every ping: of imaging and profiling sonars, and the metadata of all.
 

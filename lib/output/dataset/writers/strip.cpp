@@ -3,7 +3,7 @@
 
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 
 namespace sonarsim {
 

@@ -14,7 +14,7 @@
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "output/format/xtf.h"
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 #include "simulate/product/mosaic.h"
 #include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/sonar_at_pose.h"

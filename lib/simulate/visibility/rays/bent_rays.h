@@ -6,7 +6,7 @@
 
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/local_pose.h"
+#include "simulate/visibility/view.h"
 #include "simulate/water/sound_profile.h"
 
 namespace sonarsim {

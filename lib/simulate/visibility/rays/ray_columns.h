@@ -3,11 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulate/visibility/angles.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/bent_rays.h"
-#include "simulate/visibility/rays/cast_ray.h"
+#include "simulate/visibility/rays/gap_estimate.h"
 #include "simulate/visibility/rays/sampling.h"
 #include "simulate/visibility/view.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/column_samples.h"
 #include "simulate/visibility/rays/ray_columns.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -6,10 +6,10 @@
 
 #include "simulate/visibility/clusters.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/strips/column_pieces.h"
 #include "simulate/visibility/strips/piece_visibility.h"
 #include "simulate/visibility/strips/strip_rule.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -6,8 +6,8 @@
 
 #include "core/groups.h"
 #include "simulate/visibility/clusters.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/strips/strip_frames.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -1,7 +1,7 @@
 #include "simulate/visibility/strips/strips_engine.h"
 
 #include "simulate/visibility/strips/column_scan.h"
-#include "simulate/visibility/view_volume.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -6,9 +6,9 @@
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/clusters.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/strips/strip_rule.h"
 #include "simulate/visibility/strips/strip_triangles.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -1,4 +1,4 @@
-#include "simulate/product/gain.h"
+#include "simulate/product/contrast.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

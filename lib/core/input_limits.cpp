@@ -1,4 +1,4 @@
-#include "core/json_depth.h"
+#include "core/input_limits.h"
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include "input/trajectory/interpolate.h"
+#include "input/trajectory/trajectory.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,13 @@
-#include "simulate/paper/pixel_noise.h"
+#include "simulate/paper/noise.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "core/elementary.h"
-#include "core/normal_pair.h"
+#include "core/random.h"
+#include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -93,6 +95,9 @@ int apply(std::span<float> pixels, const PixelNoise& noise, const Lane& scale, c
     return negative;
 }
 
+constexpr std::size_t block = 128;
+constexpr std::size_t lanes_of_philox = 8;
+
 }  // namespace
 
 std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, PhiloxKey key) {
@@ -110,6 +115,76 @@ std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, P
         negative += apply(pixels, noise, scale, normal, rayleigh);
     }
     return negative;
+}
+
+RowAreas::RowAreas(int rows) : all(rows, 0.0F) {
+    normal.clear(rows);
+}
+
+void RowAreas::add(const BinSums& beam) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] += beam.weight(i);
+}
+
+std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine) {
+    std::vector<Sample> out;
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(out), [&](const Sample& s) {
+        return s.height_m > min_cosine * arrival_range(s.position);
+    });
+    return out;
+}
+
+std::uint64_t add_streaks(std::span<float> image, const RowAreas& areas, const Streaks& streaks) {
+    const std::size_t columns = image.size() / areas.all.size();
+    std::uint64_t rows = 0;
+    for (std::size_t i = 0; i < areas.all.size(); ++i) {
+        const float needed = streaks.threshold * areas.all[i];
+        if (!(areas.all[i] > 0.0F && areas.normal.weight(i) >= needed)) continue;
+        ++rows;
+        for (float& pixel : image.subspan(i * columns, columns)) {
+            const float x = std::clamp(pixel, 0.0F, 1.0F);
+            pixel = streaks.mode == StreakMode::add ? 1.0F - (1.0F - x) * (1.0F - x) : x * x;
+        }
+    }
+    return rows;
+}
+
+ScattererLattice scatterer_lattice(const RangeNoise& noise, const Scene& scene,
+                                   const Pose& T_world_sensor) {
+    if (noise.lambda_m <= 0.0F) return {};
+    return {.edge_m = noise.scatterer_m,
+            .R_world_sensor = T_world_sensor.rotation.toRotationMatrix().cast<float>(),
+            .sensor = (T_world_sensor.translation - scene.origin).cast<float>()};
+}
+
+void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key) {
+    if (noise.lambda_m <= 0.0F) return;
+    const float keep = noise.fades ? 0.0F : 1.0F;
+    const std::size_t whole = echoes.size() / lanes_of_philox * lanes_of_philox;
+    for (std::size_t begin = 0; begin < echoes.size();) {
+        // In place while whole vectors are left: the names of cells are not needed after this.
+        const std::size_t count =
+            begin < whole ? std::min(block, whole - begin) : echoes.size() - begin;
+        std::array<std::uint32_t, lanes_of_philox> last_low{}, last_high{};
+        std::uint32_t* low = echoes.cell_low.data() + begin;
+        std::uint32_t* high = echoes.cell_high.data() + begin;
+        if (begin == whole) {
+            std::copy_n(low, count, last_low.begin());
+            std::copy_n(high, count, last_high.begin());
+            low = last_low.data();
+            high = last_high.data();
+        }
+        philox_pairs(low, high, std::max(count, lanes_of_philox), key);
+        float* const __restrict range = echoes.range_m.data() + begin;
+        float* const __restrict intensity = echoes.intensity.data() + begin;
+        for (std::size_t k = 0; k < count; ++k) {
+            // w = -lambda ln u, so that exp(-w / lambda) is u itself.
+            const float u = unit_float(low[k]);
+            range[k] -= noise.lambda_m * natural_log(u);
+            intensity[k] *= keep + (1.0F - keep) * u;
+        }
+        begin += count;
+    }
 }
 
 }  // namespace sonarsim
