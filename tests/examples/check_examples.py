@@ -14,7 +14,8 @@ import sys
 import tempfile
 
 # The example, the most files that it may touch in lib, and the folder of its own that is not counted.
-EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "simulate/lambert"))
+EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "simulate/lambert"),
+            ("add_wake", 7, None))
 
 
 def run(*command, cwd=None):

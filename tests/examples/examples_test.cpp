@@ -2,11 +2,12 @@
 #include "simulate/paper/dropouts.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
+#include "simulate/trace/wake.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"
 
-// Runs the files that the examples of docs/development.md add. check_examples.py compiles them together
-// with the lines that the examples change in lib.
+// Runs the files that the examples of docs/development.md add. check_examples.py compiles them
+// together with the lines that the examples change in lib.
 
 namespace sonarsim {
 KindOfSonar obstacle_kind();
@@ -61,6 +62,26 @@ TEST_CASE("example of a stage: it loses a share of the beams, each by a draw of 
     // The number of lost beams is binomial; 5 deviations are left in one of two million seeds.
     const double mean = pings * beams * share;
     CHECK(std::fabs(lost - mean) < 5.0 * std::sqrt(mean * (1.0 - share)));
+}
+
+TEST_CASE("example of a kind of sample: a wake absorbs and scatters") {
+    // A sample 7 m ahead, 2 m of the way in the wake, loses e^(-2 a 2 m); one below the wake and a
+    // wall that hides half of it change nothing else.
+    Scene scene = empty_scene();
+    add_box(scene, {4.0F, -50.0F, -50.0F}, {4.1F, 50.0F, 50.0F}, add_material(scene, 0.6F));
+    const auto engine = make_rays_engine(scene);
+    const Wake wake{{Eigen::Vector3d(3, -1, -1), Eigen::Vector3d(5, 1, 1)}, 0.3F, 0.02F, 0.25};
+    Samples samples;
+    samples.items.resize(2);
+    samples.items[0].position = {7.0F, 0.0F, 0.0F};
+    samples.items[1].position = {0.0F, 0.0F, -7.0F};
+    add_wake(wake, SampleKind::particle, *engine, {}, samples);
+    CHECK(samples.items[0].strength == test::approx(std::exp(-2 * 0.3 * 2)));
+    CHECK(samples.items[1].strength == 1.0F);
+    double section_m2 = 0.0;
+    for (std::size_t k = 2; k < samples.items.size(); ++k)
+        section_m2 += samples.items[k].area_m2;
+    CHECK(section_m2 == test::approx(0.02 * 1 * 2 * 2));
 }
 
 TEST_CASE("example of an echo model: the energy of a floor under a cone") {

@@ -222,7 +222,7 @@ TEST_CASE("labels and classes, and keys that are gone with what to do instead") 
           "6:19: unknown labels 'shadows' (did you mean 'shadow'?); known: " + known},
          {"output: {labels: [clean, clean]}\n", "6:26: 'clean' stands twice in 'labels'"},
          {"classes:\n  - {nodes: a}\n",
-          "7:5: a rule for classes needs the keys 'nodes' and 'class'"},
+          "7:5: a rule for classes needs the keys 'nodes' or 'materials', and 'class'"},
          {"classes: {}\n", "6:10: 'classes' must be a list, not a section of keys"},
          {"output: {labels: [instance, coco]}\n", "6:29: unknown labels 'coco'; known: " + known}});
 }

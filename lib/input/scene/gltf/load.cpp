@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/find_material.h"
+#include "input/scene/materials.h"
 #include "input/scene/gltf/extent.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
