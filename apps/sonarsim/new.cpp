@@ -147,7 +147,7 @@ ReadMesh read_as_meant(const fs::path& path) {
 
 /// A preset as a mission in `folder` names it. InputError if there is none.
 std::string preset_in(const fs::path& folder, const std::string& kind, const std::string& name) {
-    const std::string shipped = kind + "/" + name + ".yaml";
+    std::string shipped = kind + "/" + name + ".yaml";
     if (!shipped_file(shipped).empty()) return shipped;
     if (fs::is_regular_file(name)) return fs::proximate(fs::absolute(name), folder).string();
     throw InputError({name}, "is not a file, and no preset of this name came with the program" +

@@ -143,7 +143,8 @@ void add_drawn(PowerForm form, std::span<const float> powers, float gain, int co
 }
 
 void draw_speckle(EchoGrid& grid, float gain, PhiloxKey key) {
-    std::vector<float> powers((grid.rows() + lanes - 1) / lanes * lanes);
+    const auto rows = static_cast<std::size_t>((grid.rows() + lanes - 1) / lanes);
+    std::vector<float> powers(rows * lanes);
     for (int c = 0; c < grid.columns(); ++c) {
         float* const cells = grid.column(c);
         for (int row = 0; row < grid.rows(); ++row)

@@ -75,9 +75,9 @@ std::vector<bool> VisibilityEngine::seen(const Pose& T_world_sensor,
     }
     std::vector<std::uint32_t> facets(points.size());
     caster_.cast_any(pose.position, directions, reach_m, facets);
-    std::vector<bool> out;
-    for (const std::uint32_t facet : facets)
-        out.push_back(facet == Caster::nothing);
+    std::vector<bool> out(facets.size());
+    std::transform(facets.begin(), facets.end(), out.begin(),
+                   [](std::uint32_t facet) { return facet == Caster::nothing; });
     return out;
 }
 
