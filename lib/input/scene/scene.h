@@ -25,7 +25,7 @@ struct Material {
     float reflection = 0.0F;  ///< power reflection coefficient at normal incidence, Eq. 4
 
     // The rest is for the calibrated model (docs/calibrated.md). Lambert's rule and facets:
-    double lambert_db = -27.0;           ///< 10 log mu of Lambert's rule
+    double lambert_db = -27.0;  ///< 10 log mu of Lambert's rule
     /// Roughness that flow meets; with it `lambert_db` is the part from inside, if there is any.
     std::optional<double> roughness_mm = {};
     double slope_rms_deg = 10.0;         ///< RMS slope of the facets; 0: no facets
@@ -37,6 +37,8 @@ struct Material {
     std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum
     std::optional<double> spectral_exponent = {};      ///< exponent of that spectrum
     std::optional<double> volume_parameter = {};       ///< scattering / absorption cross-section
+
+    std::string prevails = {};  ///< a mixture: the material of its label; "": no mixture
 
     bool operator==(const Material&) const = default;
 };

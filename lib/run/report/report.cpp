@@ -224,6 +224,7 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     const double own_goal = mission.accuracy.relative_l1;
     std::vector<Setting> settings;
+    settings.reserve(2 * goals.size() + leaves.size() + 1);
     for (const double goal : goals)
         settings.push_back(setting_of(EngineKind::rays, goal));
     for (const double goal : goals)

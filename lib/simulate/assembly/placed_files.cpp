@@ -46,7 +46,8 @@ PlacedFile file_of(const ObjectConfig& object) {
 
 std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file) {
     std::vector<std::string> parts;
-    if (!file.name.empty()) return parts;  // one instance
+    const bool is_one_instance = !file.name.empty() || file.seabed || file.heightmap;
+    if (is_one_instance) return parts;
     for (const ClassConfig& rule : mission.classes) {
         if (!rule.materials.empty()) parts.push_back(rule.materials);
     }

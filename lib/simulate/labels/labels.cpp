@@ -140,10 +140,8 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
         surfaces.finder_by([&](const Surface& of) { return objects.class_of(of.object); });
     TopTwoFinder by_material = surfaces.finder_by([&](const Surface& of) {
         if (of.material >= materials.size()) return of.material;  // the water's surface
-        // A mixture counts as the sediment that prevails.
-        const std::string& name = materials[of.material].name;
-        const auto found =
-            std::ranges::find(materials, name.substr(0, name.find(" + ")), &Material::name);
+        const std::string& prevails = materials[of.material].prevails;
+        const auto found = std::ranges::find(materials, prevails, &Material::name);
         return found == materials.end() ? of.material
                                         : static_cast<std::uint32_t>(found - materials.begin());
     });

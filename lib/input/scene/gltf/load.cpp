@@ -12,11 +12,11 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/materials.h"
 #include "input/scene/gltf/extent.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"
+#include "input/scene/materials.h"
 #include "input/scene/objects.h"
 #include "input/scene/seabed/seabed.h"
 
@@ -155,6 +155,7 @@ void add_mixtures(const Seabed& bed, MaterialTable& table) {
         const Material a = *find_material(table.materials, bed.materials[mixture.first]);
         const Material b = *find_material(table.materials, bed.materials[mixture.first + 1]);
         Material& mixed = table.materials.emplace_back(mixture.share < 0.5 ? a : b);
+        mixed.prevails = mixed.name;
         mixed.name = mixture.name;
         if (!a.grain_phi || !b.grain_phi) continue;
         const auto mean = [&](double x, double y) { return x + mixture.share * (y - x); };

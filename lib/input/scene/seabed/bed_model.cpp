@@ -64,13 +64,14 @@ class Borders {
     /// the triangle's middle is near a limit.
     std::size_t index_of(std::size_t part, const std::array<std::uint32_t, 3>& triangle) const {
         constexpr auto steps = static_cast<float>(border_mixtures);
+        if (bed_.limits.empty()) return part;
+        float middle = 0.0F;
+        for (const std::uint32_t corner : triangle)
+            middle += bed_.values[corner] / 3.0F;
         std::size_t index = part;
         float nearest = 1.0F;
         for (std::size_t border = std::max<std::size_t>(part, 1) - 1;
              border <= part && border < bed_.limits.size(); ++border) {
-            float middle = 0.0F;
-            for (const std::uint32_t corner : triangle)
-                middle += bed_.values[corner] / 3.0F;
             const float from_limit = std::abs(middle - bed_.limits[border]) / bed_.mixed;
             const bool beyond = part > border;
             const float inside = (middle > bed_.limits[border]) == beyond ? from_limit : 0.0F;

@@ -47,7 +47,9 @@ BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& l
         variance += amplitude * amplitude;
         if (wave_m <= patch_m) amplitude *= fall;
     }
-    // Per metre the waves of patch_m and more change by 7 / patch_m.
+    // The slope of waves with one variance and the lengths patch_m, 2 patch_m, ... is 2 pi /
+    // patch_m times the root of 1 + 1/4 + ..., 7 / patch_m, so that a border is 0.1 to 0.6 patch_m
+    // wide.
     const PhiloxKey key = bed_key(seed, BedDraw::sediments, 255);
     out.mixed = 0.3F + 1.9F * unit_float(philox({0, 0, 0, 0}, key).x0);
     double sum = 0.0;

@@ -34,8 +34,8 @@ inline constexpr double longest_wave = 8.0;
 /// and borders on those before and after it in the list. The field has octaves of waves, down to 4
 /// cells. They have equal variance down to `patch_m`, so that patches join to large ones. Below,
 /// amplitudes fall as wavelength^0.75: then borders have the dimension 1.25, as the coast of
-/// Britain has it (Mandelbrot, Science 156 (1967), 636). Sediments mix over
-/// some 0.1 to 0.6 `patch_m`, by the seed (rule).
+/// Britain has it (Mandelbrot, Science 156 (1967), 636). Sediments mix over 0.1 to 0.6 `patch_m`,
+/// by the seed (rule).
 BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
                           std::uint64_t seed);
 
