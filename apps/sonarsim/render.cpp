@@ -60,6 +60,7 @@ double pings_per_s(const RenderSummary& summary) {
 /// The stages of the work and their seconds.
 std::vector<std::pair<std::string_view, double>> stage_seconds(const RenderSummary& summary) {
     std::vector<std::pair<std::string_view, double>> stages;
+    stages.reserve(std::size(ping_timers) + 3);
     for (const auto& timer : ping_timers)
         stages.emplace_back(timer.name, summary.stages.*timer.member);
     stages.emplace_back("label", summary.label_seconds);

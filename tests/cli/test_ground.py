@@ -244,6 +244,19 @@ class Seabed(Composed):
         # Fields of the map end at its pixels, and those of the bed within its triangles.
         self.assertLess(relative_difference(other, one), 0.04)
 
+    def test_mixtures_have_the_label_of_what_prevails(self):
+        """Also beside a material of the user's whose name looks like a mixture's."""
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nConcrete,2400,3100,\nsand,1900,1700,1.5\n"
+                   "mud + shells,1150,1470,7\nmud,1200,1480,7\n")
+        self.write("mission.yaml", BED.replace("    material: Concrete\n", "    patch_m: 2\n    sediments:\n"
+                   "      [{material: sand, share: 1}, {material: mud + shells, share: 1}, {material: mud, share: 1}]\n")
+                   .replace("imaging", "sidescan").replace("    azimuth_bins: 32\n", "").replace("true", "[material]"))
+        self.assert_renders()
+        names = {entry["id"]: entry["name"] for entry in self.dataset()["labels"]["materials"]}
+        self.assertTrue({"sand + 40 % mud + shells", "mud + shells + 40 % sand"} < set(names.values()), names)
+        self.assertEqual({names[value] for value in numbers_of(self.out / "fls/material.npy") if value} - {"Concrete"},
+                         {"sand", "mud + shells", "mud"})
+
     def test_presets(self):
         """Each bed of configs/seabeds, with keys of the mission's own above those of the file."""
         for path in sorted((ROOT / "configs/seabeds").glob("*.yaml")):

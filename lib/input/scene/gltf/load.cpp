@@ -165,6 +165,18 @@ void add_mixtures(const Seabed& bed, MaterialTable& table) {
     }
 }
 
+/// Adds the materials that mixtures have as their label, which need not occur by themselves.
+void add_prevailing(const MaterialTable& table, Scene& scene, std::vector<std::string>& users) {
+    const std::size_t own = scene.materials.size();
+    for (std::size_t k = 0; k < own; ++k) {
+        const Material* const row = find_material(table.materials, scene.materials[k].name);
+        if (!row || row->prevails.empty() || find_material(scene.materials, row->prevails))
+            continue;
+        scene.materials.emplace_back().name = row->prevails;
+        users.emplace_back();
+    }
+}
+
 }  // namespace
 
 std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
@@ -215,6 +227,7 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
         rules.known.insert(material.name);
     MaterialNumbers materials;
     Scene scene = compose(files, models, rules, sharing_threshold, materials);
+    add_prevailing(mixed, scene, materials.users);
     resolve_materials(scene, mixed, water, materials.users);
     return scene;
 }
