@@ -188,17 +188,18 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
                                          "' already; give each a name of its own");
     }
     // The rules of the mission know the ground by the names of its nodes, so they come first.
-    std::vector<PlacedMesh> ground;
-    const auto is_ground = [](const PlacedFile& file) { return file.heightmap || file.seabed; };
-    for (const PlacedFile& file : files) {
-        if (is_ground(file)) ground = place_meshes(models.model(file), file, names);
+    std::vector<OpenFile> open(files.size());
+    for (const bool ground : {true, false}) {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            const PlacedFile& file = files[i];
+            if ((file.heightmap || file.seabed) != ground) continue;
+            open[i].placed = &file;
+            open[i].model = &models.model(file);
+            open[i].meshes = place_meshes(*open[i].model, file, names);
+        }
     }
-    std::vector<OpenFile> open;
-    for (const PlacedFile& file : files) {
-        OpenFile& next = open.emplace_back();
-        next.placed = &file;
-        next.model = &models.model(file);
-        next.meshes = is_ground(file) ? std::move(ground) : place_meshes(*next.model, file, names);
+    for (OpenFile& next : open) {
+        const PlacedFile& file = *next.placed;
         for (const PlacedMesh& mesh : next.meshes) {
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
             if (!is_part) {
