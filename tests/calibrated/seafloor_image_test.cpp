@@ -1,6 +1,8 @@
 #include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/expected_echo.h"
 #include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/patches.h"
 
 using namespace sonarsim;
@@ -65,29 +67,55 @@ std::vector<Sample> strip(float depth_m, std::uint32_t material = 0) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("sea bed: the level of a floor in an imaging sonar") {
-        // The energy of an image is the sum of sigma A r^-4 10^(-0.2 alpha r) over the floor, times
-        // what the receiver makes of a point. A plate that faces the sonar has the latter.
-        const CalibratedModel model = fan_model();
-        const Scene scene = scene_of_beds();
-        const auto received = [&](double range) {
-            return std::pow(range, -4.0) * std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
-        };
-        const auto sigma = [&](double sine) { return sand(sine, 4e5, model.sound_speed_m_s); };
-        const double of_plate =
-            total(image_of(model, scene, fan_view,
-                           {square({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
-            (sigma(1.0) * 1e-6 * received(4.0));
-        for (const float depth : {0.3F, 0.8F, 1.5F}) {
-            const std::vector<Sample> floor = strip(depth);
-            double expected = 0.0;
-            for (const Sample& piece : floor) {
-                const double range = piece.position.norm();
-                expected += sigma(depth / range) * piece.area_m2 * received(range);
+    // With u = y / r a floor at the depth d has dA = r^2 / x dr du. So a bin has the echo
+    // sigma r^-2 / x 10^(-0.2 alpha r) times the integrals of the pattern over u and of the pulse
+    // over r. Both are far narrower than this varies.
+    TEST_CASE("sea bed: a floor has the level of the sonar equation at every angle") {
+        constexpr double depth_m = 3.0;
+        constexpr int beams = 256;
+        Draws draws(40);
+        for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
+            SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 4e5);
+            config.azimuth_deg = 90.0;
+            config.azimuth_bins = beams;
+            config.elevation_deg = 60.0;
+            set_range(config, 1.0, 21.0, 500);
+            config.instrument.beam.width_deg = static_cast<double>(draws.between(0.5F, 2.0F));
+            config.instrument.beam.side_lobe_db =
+                static_cast<double>(draws.between(-35.0F, -15.0F));
+            config.instrument.pulse.resolution_m = static_cast<double>(draws.between(0.04F, 0.3F));
+            const Sonar sonar = make_sonar(config, {});
+            Scene scene = empty_scene();
+            scene.materials.push_back(example_sand());
+            add_floor(scene, 60.0F, -static_cast<float>(depth_m),
+                      static_cast<std::uint32_t>(scene.materials.size() - 1), 100);
+            const std::vector<float> image = expected_image(sonar, scene, engine);
+            const View& view = sonar.settings.view;
+            const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
+            const ExpectedEcho echo = expected_echo(sonar.config.instrument, {}, view);
+            const auto expected = [&](int row, int beam) {
+                const double r = view.range_min_m + (row + 0.5) * view.bin_m();
+                const double u = std::sin(radians(90.0 * ((beam + 0.5) / beams - 0.5)));
+                const double x = std::sqrt(r * r * (1.0 - u * u) - depth_m * depth_m);
+                return scattering_strength(example_sand(), 4e5, depth_m / r) / (r * r * x) *
+                       std::pow(10.0, -0.2 * alpha * r) * echo.far_integral * echo.pulse_length_m;
+            };
+            for (const double grazing_deg : {12.0, 15.0, 18.0, 21.0, 24.0}) {
+                for (const int beam : {118, 188}) {
+                    const double range_m = depth_m / std::sin(radians(grazing_deg));
+                    const int row = static_cast<int>((range_m - 1.0) / view.bin_m());
+                    double found = 0.0;
+                    double closed = 0.0;
+                    for (int i = row - 5; i <= row + 5; ++i) {
+                        for (int j = beam; j <= beam + 20; ++j) {
+                            found += image[static_cast<std::size_t>(i) * beams + j];
+                            closed += expected(i, j);
+                        }
+                    }
+                    CAPTURE_ALL(grazing_deg, beam, static_cast<int>(engine));
+                    CHECK(std::fabs(db_of_power(found / closed)) < 0.03);
+                }
             }
-            const double found = total(image_of(model, scene, fan_view, floor));
-            CAPTURE(depth);
-            CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
         }
     }
 

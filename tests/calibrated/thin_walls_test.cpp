@@ -217,6 +217,42 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    // Front and back are Lambert's: the integral of mu cos^2 r^-4 10^(-0.2 alpha r), and T^2 of it.
+    TEST_CASE("thin walls: the back of a sphere has its echo at every range") {
+        constexpr double radius_m = 0.3;
+        Draws draws(31);
+        for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
+            Material wall = drawn_wall(draws);
+            wall.lambert_db = -20.0;
+            Material solid = wall;
+            solid.wall_mm.reset();
+            for (const float distance_m : {3.0F, 6.0F, 9.0F, 11.0F}) {
+                const Sonar sonar = wall_sonar(SonarKind::imaging);
+                const auto energy = [&](const Material& material) {
+                    WallScene ball(sonar);
+                    ball.add_ball(distance_m, radius_m, ball.add(material));
+                    return ball.energy(sonar, engine);
+                };
+                const double front = energy(solid);
+                const double back = energy(wall) - front;
+                const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
+                double sums[2] = {};
+                constexpr int steps = 4000;
+                for (int k = 0; k < steps; ++k) {
+                    const double z = radius_m * (2.0 * (k + 0.5) / steps - 1.0);
+                    const double r = std::sqrt(distance_m * distance_m + radius_m * radius_m -
+                                               2.0 * distance_m * z);
+                    const double cosine = (distance_m * z - radius_m * radius_m) / (radius_m * r);
+                    sums[cosine > 0.0 ? 0 : 1] +=
+                        cosine * cosine * std::pow(r, -4.0) * std::pow(10.0, -0.2 * alpha * r);
+                }
+                CAPTURE_ALL(distance_m, static_cast<int>(engine));
+                CHECK(back / front ==
+                      test::approx(two_way(wall) * sums[1] / sums[0]).epsilon(0.02));
+            }
+        }
+    }
+
     // The rear plate has a map. Without the sound through walls the error is a multiple of this.
     TEST_CASE("thin walls: images agree with the reference's points") {
         for (const Setting& setting : settings) {

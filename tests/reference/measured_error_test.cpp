@@ -54,6 +54,40 @@ TEST_CASE("measured errors: a coarse octree is warned of, with the key to change
     CHECK(warnings[0].cure == "use engine: auto");
 }
 
+// The truth has 32 times as fine a goal. A plate of 0.3 m before the wall adds narrow bounces.
+TEST_CASE("measured errors: multipath counts") {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    mission.sensors[0].multipath.method = MultipathMethod::exact;
+    for (const double goal : {0.1, 0.03}) {
+        mission.accuracy.relative_l1 = goal;
+        Assembly assembly = small_assembly(mission, 7);
+        add_quad(assembly.scene, {-1.0F, -0.2F, 1.4F}, {-0.8F, 0.1F, 1.4F}, {-0.8F, 0.1F, 1.7F},
+                 {-1.0F, -0.2F, 1.7F}, 0);
+        const auto engine = make_engine(mission, assembly);
+        const MeasuredError measured = *measure_errors(mission, assembly, *engine)[0];
+        double truth = 0.0;
+        for (const PingError& ping : measured.pings) {
+            Sonar sonar = assembly.sonars[0];
+            const auto image = [&] {
+                constexpr Terms terms{.water = false, .random = 0};
+                return render_ping(sonar, assembly.scene, *engine,
+                                   assembly.trajectory[ping.pose].T_world_vehicle, {}, terms)
+                    .intensity;
+            };
+            const std::vector<float> coarse = image();
+            sonar.settings.view.relative_l1 = goal / 32.0;
+            truth += image_error(coarse, image()).relative_l1 / 3.0;
+        }
+        CAPTURE_ALL(goal, *measured.mean(), truth);
+        CHECK(*measured.mean() > truth / 1.5);
+        CHECK(*measured.mean() < 1.5 * truth);
+        assembly.sonars[0].settings.multipath.on = false;
+        const auto direct = measure_errors(mission, assembly, *engine)[0];
+        CHECK(*measured.mean() > 2.0 * *direct->mean());
+    }
+}
+
 // A cell of 400 cm^2 is larger than the bins. Where only the noise of areas decides which bins hold
 // one, fewer do so the more rays the reference has.
 TEST_CASE("measured errors: cells larger than bins leave the choice of bins to the surface") {

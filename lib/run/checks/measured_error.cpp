@@ -47,6 +47,23 @@ struct Task {
     std::uint32_t pose;
 };
 
+/// The change of the image with multipath, relative L1, from the mission's goal to a tenth of it;
+/// 0 for a sonar without multipath. The reference holds no multipath.
+double multipath_error(const Sonar& usual, const Scene& scene, const VisibilityEngine& engine,
+                       const Pose& T_world_sensor) {
+    constexpr double finer = 0.1;
+    constexpr Terms terms{.water = false, .random = 0};
+    if (!usual.settings.multipath.on) return 0.0;
+    PingSettings settings = usual.settings;
+    const auto image = [&] {
+        const TracedPing traced = trace_ping(settings, scene, engine, T_world_sensor, terms);
+        return form_image(traced, settings, scene, {}, terms).intensity;
+    };
+    const std::vector<float> coarse = image();
+    settings.view.relative_l1 *= finer;
+    return image_error(coarse, image()).relative_l1;
+}
+
 PingError measure(const Mission& mission, const Assembly& assembly, const Caster& caster,
                   const VisibilityEngine& engine, const Sonar& usual, std::uint32_t pose) {
     const Scene& scene = assembly.scene;
@@ -64,9 +81,11 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
          .rays_per_bin = 4.0,
          .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max,
          .gives_up = true});
-    const Ping ping =
-        direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
-    const double error = error_without_noise(ping.intensity, truth);
+    const std::shared_ptr<const VisibilityEngine> then =
+        engine_at(engine, assembly.motions, at.t_s);
+    const Ping ping = direct_image(*sonar, scene, *then, T_world_sensor);
+    const double direct = error_without_noise(ping.intensity, truth);
+    const double error = std::max(direct, multipath_error(*sonar, scene, *then, T_world_sensor));
     if (truth.noise > measurable * std::max(goal, error)) return {pose, {}, truth.noise};
     return {pose, error, truth.noise};
 }
