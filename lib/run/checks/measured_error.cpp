@@ -90,6 +90,13 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     return {pose, error, truth.noise};
 }
 
+/// True if the first ping was measured and the noise of its reference is far above the goal.
+bool is_hopeless(const std::optional<MeasuredError>& first, const Mission& mission) {
+    constexpr double far_above = 10.0;
+    return first && !first->pings[0].relative_l1 &&
+           first->pings[0].noise > far_above * mission.accuracy.relative_l1;
+}
+
 }  // namespace
 
 std::vector<PingError> MeasuredError::measured() const {
@@ -156,15 +163,24 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
             tasks.push_back({i, pose});
     }
     const Caster caster = assembly.make_caster();
+    // The first ping of each sonar tells whether others are worth their casts.
+    const auto is_first = [&](std::size_t k) {
+        return k == 0 || tasks[k].sonar != tasks[k - 1].sonar;
+    };
     std::vector<PingError> found(tasks.size());
-    in_parallel(tasks.size(), [&](std::size_t k) {
-        found[k] = measure(mission, assembly, caster, engine, assembly.sonars[tasks[k].sonar],
-                           tasks[k].pose);
-    });
-    for (std::size_t k = 0; k < tasks.size(); ++k) {
-        std::optional<MeasuredError>& error = errors[tasks[k].sonar];
-        if (!error) error.emplace();
-        error->pings.push_back(found[k]);
+    for (const bool first : {true, false}) {
+        in_parallel(tasks.size(), [&](std::size_t k) {
+            const Task& task = tasks[k];
+            if (is_first(k) == first && !is_hopeless(errors[task.sonar], mission))
+                found[k] = measure(mission, assembly, caster, engine, assembly.sonars[task.sonar],
+                                   task.pose);
+        });
+        for (std::size_t k = 0; k < tasks.size(); ++k) {
+            std::optional<MeasuredError>& error = errors[tasks[k].sonar];
+            if (is_first(k) != first || is_hopeless(error, mission)) continue;
+            if (!error) error.emplace();
+            error->pings.push_back(found[k]);
+        }
     }
     return errors;
 }
