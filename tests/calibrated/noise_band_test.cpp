@@ -151,7 +151,8 @@ TEST_SUITE("calibrated") {
             config.instrument.receiver.tvg_log = 40.0;
             const Sonar sonar = make_sonar(config, {});
             std::array<std::vector<double>, 4> quarters;
-            for (std::uint32_t ping = 0; ping < 200; ++ping) {
+            const std::uint32_t pings = kind == SonarKind::imaging ? 4 : 200;
+            for (std::uint32_t ping = 0; ping < pings; ++ping) {
                 const std::vector<float> image =
                     image_of_samples(calibrated_model_of(sonar), sonar.settings.view, {},
                                      {.random = 2}, {}, {5, 6, ping});
