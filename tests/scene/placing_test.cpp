@@ -101,14 +101,18 @@ double min_gap(const Surface& object) {
 
 /// True if two boxes meet as seen from above: a point of a side of one lies in a face of the other.
 bool meet_from_above(const Surface& one, const Surface& other) {
+    const Eigen::AlignedBox3d a = box_of(one);
+    const Eigen::AlignedBox3d b = box_of(other);
+    if ((a.min().array() > b.max().array() || b.min().array() > a.max().array()).head<2>().any())
+        return false;
     const auto in_face = [&](const Eigen::Vector2d& p) {
         return std::ranges::any_of(other.triangles, [&](const auto& corners) {
             int sides = 0;
             int turns = 0;
             for (int k = 0; k < 3; ++k) {
-                const Eigen::Vector2d a = other.vertices[corners[k]].template head<2>();
-                const Eigen::Vector2d b = other.vertices[corners[(k + 1) % 3]].template head<2>();
-                const double cross = (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x();
+                const Eigen::Vector2d q = other.vertices[corners[k]].template head<2>();
+                const Eigen::Vector2d r = other.vertices[corners[(k + 1) % 3]].template head<2>();
+                const double cross = (r - q).x() * (p - q).y() - (r - q).y() * (p - q).x();
                 sides += cross > 1e-9;
                 turns += cross < -1e-9;
             }
@@ -117,11 +121,11 @@ bool meet_from_above(const Surface& one, const Surface& other) {
     };
     for (const auto& corners : one.triangles) {
         for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector2d a = one.vertices[corners[k]].head<2>();
-            const Eigen::Vector2d b = one.vertices[corners[(k + 1) % 3]].head<2>();
-            const int steps = 1 + static_cast<int>((b - a).norm() / 1e-2);
+            const Eigen::Vector2d from = one.vertices[corners[k]].head<2>();
+            const Eigen::Vector2d to = one.vertices[corners[(k + 1) % 3]].head<2>();
+            const int steps = 1 + static_cast<int>((to - from).norm() / 1e-2);
             for (int s = 0; s <= steps; ++s) {
-                if (in_face(a + static_cast<double>(s) / steps * (b - a))) return true;
+                if (in_face(from + static_cast<double>(s) / steps * (to - from))) return true;
             }
         }
     }
