@@ -5,7 +5,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,7 +17,6 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "input/mission/parse.h"
-#include "output/dataset/metadata.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/ping_source.h"
 #include "simulate/assembly/poses.h"

@@ -15,8 +15,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/text.h"

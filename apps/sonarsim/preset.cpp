@@ -2,13 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "core/text.h"
 #include "core/units.h"
 #include "input/mission/parse.h"
 #include "logging.h"

@@ -10,7 +10,6 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"

@@ -22,7 +22,6 @@
 #include "input/mission/variants.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "output/dataset/metadata.h"
 #include "run/checks/find_warnings.h"
 #include "run/checks/measured_error.h"
 #include "run/job/folder.h"

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "input/mission/limits.h"
 

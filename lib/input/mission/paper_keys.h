@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "input/mission/limits.h"
 
 // The keys of the paper's model, with their defaults and their descriptions as in mission.h.

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
-#include <vector>
 
 #include "core/file.h"
 #include "core/text.h"
 #include "input/mission/dataset_names.h"
 #include "input/mission/files.h"
-#include "input/mission/mission.h"
 #include "input/mission/override.h"
 #include "input/mission/ping_draws.h"
 #include "input/mission/preset.h"

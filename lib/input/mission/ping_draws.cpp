@@ -7,7 +7,6 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
-#include "core/random.h"
 #include "core/text.h"
 #include "input/mission/key_visitor.h"
 #include "input/mission/sonar_keys.h"

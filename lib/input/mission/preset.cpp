@@ -1,10 +1,7 @@
 #include "input/mission/preset.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "core/file.h"
 #include "core/module.h"

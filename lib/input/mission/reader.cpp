@@ -1,8 +1,6 @@
 #include "input/mission/reader.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 
 #include "core/text.h"
 #include "input/mission/dataset_names.h"

@@ -5,8 +5,6 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -15,8 +13,6 @@
 #include "input/mission/document.h"
 #include "input/mission/files.h"
 #include "input/mission/key_visitor.h"
-#include "input/mission/mission.h"
-#include "input/mission/sonar_keys.h"
 
 namespace sonarsim {
 

@@ -1,11 +1,8 @@
 #include "input/mission/value_types.h"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/error.h"
-#include "core/text.h"
 
 namespace sonarsim {
 

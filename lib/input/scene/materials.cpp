@@ -1,6 +1,5 @@
 #include "input/scene/materials.h"
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -8,9 +7,7 @@
 
 #include "core/csv.h"
 #include "core/elementary.h"
-#include "core/error.h"
 #include "core/input_limits.h"
-#include "core/text.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -1,6 +1,5 @@
 #include "input/scene/objects.h"
 
-#include <algorithm>
 #include <map>
 #include <string_view>
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/text.h"
-#include "input/scene/materials.h"
 
 namespace sonarsim {
 

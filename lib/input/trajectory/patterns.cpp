@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "input/trajectory/trajectory.h"
 
 namespace sonarsim {
 

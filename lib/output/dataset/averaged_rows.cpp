@@ -1,8 +1,5 @@
 #include "output/dataset/averaged_rows.h"
 
-#include <algorithm>
-#include <span>
-
 #include "simulate/product/contrast.h"
 
 namespace sonarsim {

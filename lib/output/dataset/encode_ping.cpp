@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "core/clock.h"
 #include "simulate/ping/sonar.h"

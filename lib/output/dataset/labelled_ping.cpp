@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 #include "simulate/labels/silhouette.h"
 #include "simulate/sonar/kinds.h"

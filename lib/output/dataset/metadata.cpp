@@ -4,7 +4,6 @@
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "output/dataset/annotated_objects.h"
-#include "output/dataset/json.h"
 #include "output/format/png.h"
 #include "simulate/assembly/inputs_hash.h"
 #include "simulate/sonar/kinds.h"

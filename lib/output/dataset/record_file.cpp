@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <stdexcept>
-#include <string>
-#include <system_error>
 #include <utility>
 
 #include "core/file.h"

@@ -2,9 +2,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstring>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "core/file.h"

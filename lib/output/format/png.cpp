@@ -7,8 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/file.h"
-
 namespace sonarsim {
 
 namespace {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "core/text.h"
-#include "input/scene/copies.h"
 #include "input/scene/materials.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/placed_files.h"

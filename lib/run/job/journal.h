@@ -7,7 +7,6 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "output/dataset/writer.h"
 #include "run/job/shard_lock.h"

@@ -6,7 +6,6 @@
 #include <span>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "core/clock.h"
 #include "core/file.h"

@@ -1,6 +1,5 @@
 #include "run/job/run_job.h"
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>

@@ -1,6 +1,5 @@
 #include "run/job/status.h"
 
-#include <algorithm>
 #include <set>
 
 #include "output/dataset/dataset_file.h"

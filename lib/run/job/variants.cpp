@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <future>
-#include <stdexcept>
 
 #include "core/build_info.h"
 #include "core/clock.h"

@@ -8,7 +8,6 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "run/preview/drawing.h"
-#include "simulate/product/picture.h"
 
 namespace sonarsim {
 

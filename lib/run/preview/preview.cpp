@@ -10,7 +10,6 @@
 
 #include "core/units.h"
 #include "run/preview/drawing.h"
-#include "run/preview/scene_views.h"
 #include "run/preview/sonar_panel.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "run/preview/drawing.h"
 #include "run/preview/object_boxes.h"
 #include "simulate/product/picture.h"
 #include "simulate/visibility/view.h"

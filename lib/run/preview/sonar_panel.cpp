@@ -8,7 +8,6 @@
 #include "run/preview/drawing.h"
 #include "run/preview/fan_style.h"
 #include "simulate/product/contrast.h"
-#include "simulate/product/picture.h"
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
 

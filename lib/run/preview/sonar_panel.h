@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "simulate/assembly/assemble.h"
 #include "simulate/product/picture.h"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <utility>
 
 #include "core/clock.h"
 #include "core/file.h"

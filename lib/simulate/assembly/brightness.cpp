@@ -6,10 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 
 #include "simulate/assembly/poses.h"
-#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/visibility/rays/rays_engine.h"
 

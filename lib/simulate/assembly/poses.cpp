@@ -1,13 +1,10 @@
 #include "simulate/assembly/poses.h"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -19,7 +16,6 @@
 #include "input/trajectory/files.h"
 #include "input/trajectory/navigation.h"
 #include "input/trajectory/patterns.h"
-#include "input/trajectory/trajectory.h"
 #include "input/trajectory/wave_motion.h"
 #include "simulate/sonar/sonar_at_pose.h"
 

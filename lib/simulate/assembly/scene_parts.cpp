@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <variant>
 
@@ -18,7 +17,6 @@
 #include "simulate/assembly/heightmap_part.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/scene_store.h"
 #include "simulate/assembly/seabed_part.h"
 #include "simulate/assembly/sound_profiles.h"
 #include "simulate/water/sound_profile.h"

@@ -1,7 +1,6 @@
 #include "simulate/assembly/scene_store.h"
 
 #include "core/hash.h"
-#include "input/scene/gltf/surface_of.h"
 
 namespace sonarsim {
 

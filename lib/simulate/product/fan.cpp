@@ -1,7 +1,6 @@
 #include "simulate/product/fan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 

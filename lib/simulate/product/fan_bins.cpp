@@ -1,8 +1,5 @@
 #include "simulate/product/fan_bins.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace sonarsim {
 
 namespace {

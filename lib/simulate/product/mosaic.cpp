@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "simulate/product/bottom.h"
 #include "simulate/product/sidescan_row.h"

@@ -1,7 +1,6 @@
 #include "simulate/product/object_masks.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace sonarsim {
 

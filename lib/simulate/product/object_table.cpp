@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/units.h"
 #include "simulate/product/object_masks.h"

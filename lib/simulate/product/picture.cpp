@@ -1,10 +1,8 @@
 #include "simulate/product/picture.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 
 namespace sonarsim {
 

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <vector>
 
 #include "core/elementary.h"
-#include "simulate/trace/ping_motion.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"
-#include "input/scene/materials.h"
 #include "input/scene/objects.h"
 #include "input/scene/seabed/seabed.h"
 

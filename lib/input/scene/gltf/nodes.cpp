@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.h"
 #include "core/text.h"
 #include "input/scene/objects.h"
 

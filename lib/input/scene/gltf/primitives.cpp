@@ -1,10 +1,7 @@
 #include "input/scene/gltf/primitives.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/gltf/nodes.h"
 #include "input/scene/meshes/read_mesh.h"
 
 namespace sonarsim {

@@ -1,7 +1,6 @@
 #include "input/scene/gltf/surface_of.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/objects.h"

@@ -12,7 +12,6 @@
 #include "core/known_format.h"
 #include "core/module.h"
 #include "core/text.h"
-#include "input/scene/images/image_place.h"
 #include "input/scene/images/module.h"
 
 namespace sonarsim {

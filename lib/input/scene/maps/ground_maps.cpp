@@ -1,6 +1,5 @@
 #include "input/scene/maps/ground_maps.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -11,7 +11,6 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/images/image_place.h"
 
 namespace sonarsim {
 

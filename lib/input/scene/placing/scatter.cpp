@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/pose.h"
 #include "core/random.h"
-#include "input/scene/placing/rest.h"
 
 namespace sonarsim {
 

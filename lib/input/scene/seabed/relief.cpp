@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "core/elementary.h"
-#include "core/random.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 
 #include "output/dataset/json.h"
 #include "output/dataset/writer.h"

@@ -1,7 +1,5 @@
 #include "simulate/product/scan.h"
 
-#include <memory>
-
 #include "core/file.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/fan.h"

@@ -16,7 +16,6 @@
 #include "output/format/xtf.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/mosaic.h"
-#include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {
