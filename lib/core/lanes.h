@@ -21,6 +21,9 @@ struct Mask8 {
 
     /// Lane 0 is the lowest bit.
     unsigned bits() const { return static_cast<unsigned>(_mm256_movemask_ps(v)); }
+
+    friend Mask8 operator&(Mask8 a, Mask8 b) { return {_mm256_and_ps(a.v, b.v)}; }
+    friend Mask8 operator|(Mask8 a, Mask8 b) { return {_mm256_or_ps(a.v, b.v)}; }
 };
 
 struct Ints8 {
@@ -33,6 +36,24 @@ struct Ints8 {
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
     }
     void store(std::int32_t* to) const { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), v); }
+
+    friend Ints8 operator+(Ints8 a, Ints8 b) { return _mm256_add_epi32(a.v, b.v); }
+    friend Ints8 operator-(Ints8 a, Ints8 b) { return _mm256_sub_epi32(a.v, b.v); }
+    /// The lower 32 bits of the products.
+    friend Ints8 operator*(Ints8 a, Ints8 b) { return _mm256_mullo_epi32(a.v, b.v); }
+    friend Ints8 operator&(Ints8 a, Ints8 b) { return _mm256_and_si256(a.v, b.v); }
+    friend Ints8 operator^(Ints8 a, Ints8 b) { return _mm256_xor_si256(a.v, b.v); }
+    friend Ints8 operator<<(Ints8 a, int count) { return _mm256_slli_epi32(a.v, count); }
+    /// Zeros come in from the left.
+    friend Ints8 operator>>(Ints8 a, int count) { return _mm256_srli_epi32(a.v, count); }
+    /// The quotients by powers of two, rounded down.
+    friend Ints8 halved(Ints8 a, Ints8 times) { return _mm256_srav_epi32(a.v, times.v); }
+    friend Mask8 operator>(Ints8 a, Ints8 b) {
+        return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))};
+    }
+    friend Ints8 where(Mask8 mask, Ints8 a) {
+        return _mm256_and_si256(_mm256_castps_si256(mask.v), a.v);
+    }
 };
 
 struct Floats8 {
@@ -45,130 +66,55 @@ struct Floats8 {
     void store(float* to) const { _mm256_storeu_ps(to, v); }
 
     float operator[](int lane) const { return v[lane]; }
+
+    friend Floats8 operator+(Floats8 a, Floats8 b) { return _mm256_add_ps(a.v, b.v); }
+    friend Floats8 operator-(Floats8 a, Floats8 b) { return _mm256_sub_ps(a.v, b.v); }
+    friend Floats8 operator*(Floats8 a, Floats8 b) { return _mm256_mul_ps(a.v, b.v); }
+    friend Floats8 operator/(Floats8 a, Floats8 b) { return _mm256_div_ps(a.v, b.v); }
+    /// Adds `a` to eight numbers in memory.
+    friend void add_to(float* sums, Floats8 a) { (Floats8::load(sums) + a).store(sums); }
+    friend Mask8 operator<(Floats8 a, Floats8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+    /// True where one of them is NaN.
+    friend Mask8 operator!=(Floats8 a, Floats8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
+    friend Mask8 operator>=(Floats8 a, Floats8 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+    friend Mask8 operator>(Floats8 a, Floats8 b) { return b < a; }
+    friend Mask8 operator<=(Floats8 a, Floats8 b) { return b >= a; }
+    /// a b + c, rounded once.
+    friend Floats8 fma(Floats8 a, Floats8 b, Floats8 c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+    /// a b - c, rounded once.
+    friend Floats8 fms(Floats8 a, Floats8 b, Floats8 c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }
+    /// The lesser; b where one of them is NaN.
+    friend Floats8 least(Floats8 a, Floats8 b) { return _mm256_min_ps(a.v, b.v); }
+    /// The greater; b where one of them is NaN.
+    friend Floats8 greatest(Floats8 a, Floats8 b) { return _mm256_max_ps(a.v, b.v); }
+    friend Floats8 absolute(Floats8 a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v); }
+    friend Floats8 sqrt(Floats8 a) { return _mm256_sqrt_ps(a.v); }
+    friend Floats8 floor(Floats8 a) { return _mm256_floor_ps(a.v); }
+    /// 0 in the lanes that are false.
+    friend Floats8 where(Mask8 mask, Floats8 a) { return _mm256_and_ps(mask.v, a.v); }
+    /// a in the lanes that are true, b in the others.
+    friend Floats8 where(Mask8 mask, Floats8 a, Floats8 b) {
+        return _mm256_blendv_ps(b.v, a.v, mask.v);
+    }
+    /// Rounded towards 0.
+    friend Ints8 to_ints(Floats8 a) { return _mm256_cvttps_epi32(a.v); }
+    friend Ints8 bits_of_floats(Floats8 a) { return _mm256_castps_si256(a.v); }
+    /// values[at], `at` within 0 to 7.
+    friend Floats8 picked(Floats8 values, Ints8 at) {
+        return _mm256_permutevar8x32_ps(values.v, at.v);
+    }
 };
 
-inline Mask8 operator&(Mask8 a, Mask8 b) {
-    return {_mm256_and_ps(a.v, b.v)};
-}
-inline Mask8 operator|(Mask8 a, Mask8 b) {
-    return {_mm256_or_ps(a.v, b.v)};
-}
-
-inline Ints8 operator+(Ints8 a, Ints8 b) {
-    return _mm256_add_epi32(a.v, b.v);
-}
-inline Ints8 operator-(Ints8 a, Ints8 b) {
-    return _mm256_sub_epi32(a.v, b.v);
-}
-/// The lower 32 bits of the products.
-inline Ints8 operator*(Ints8 a, Ints8 b) {
-    return _mm256_mullo_epi32(a.v, b.v);
-}
-inline Ints8 operator&(Ints8 a, Ints8 b) {
-    return _mm256_and_si256(a.v, b.v);
-}
-inline Ints8 operator^(Ints8 a, Ints8 b) {
-    return _mm256_xor_si256(a.v, b.v);
-}
-inline Ints8 operator<<(Ints8 a, int count) {
-    return _mm256_slli_epi32(a.v, count);
-}
-/// Zeros come in from the left.
-inline Ints8 operator>>(Ints8 a, int count) {
-    return _mm256_srli_epi32(a.v, count);
-}
-/// The quotients by powers of two, rounded down.
-inline Ints8 halved(Ints8 a, Ints8 times) {
-    return _mm256_srav_epi32(a.v, times.v);
-}
-inline Mask8 operator>(Ints8 a, Ints8 b) {
-    return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))};
-}
 /// 0 to 7.
 inline Ints8 lane_numbers() {
     return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-inline Floats8 operator+(Floats8 a, Floats8 b) {
-    return _mm256_add_ps(a.v, b.v);
-}
-inline Floats8 operator-(Floats8 a, Floats8 b) {
-    return _mm256_sub_ps(a.v, b.v);
-}
-inline Floats8 operator*(Floats8 a, Floats8 b) {
-    return _mm256_mul_ps(a.v, b.v);
-}
-inline Floats8 operator/(Floats8 a, Floats8 b) {
-    return _mm256_div_ps(a.v, b.v);
-}
-/// Adds `a` to eight numbers in memory.
-inline void add_to(float* sums, Floats8 a) {
-    (Floats8::load(sums) + a).store(sums);
-}
-inline Mask8 operator<(Floats8 a, Floats8 b) {
-    return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
-}
-/// True where one of them is NaN.
-inline Mask8 operator!=(Floats8 a, Floats8 b) {
-    return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)};
-}
-inline Mask8 operator>=(Floats8 a, Floats8 b) {
-    return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)};
-}
-inline Mask8 operator>(Floats8 a, Floats8 b) {
-    return b < a;
-}
-inline Mask8 operator<=(Floats8 a, Floats8 b) {
-    return b >= a;
-}
-/// a b + c, rounded once.
-inline Floats8 fma(Floats8 a, Floats8 b, Floats8 c) {
-    return _mm256_fmadd_ps(a.v, b.v, c.v);
-}
-/// a b - c, rounded once.
-inline Floats8 fms(Floats8 a, Floats8 b, Floats8 c) {
-    return _mm256_fmsub_ps(a.v, b.v, c.v);
-}
-/// The lesser; b where one of them is NaN.
-inline Floats8 least(Floats8 a, Floats8 b) {
-    return _mm256_min_ps(a.v, b.v);
-}
-/// The greater; b where one of them is NaN.
-inline Floats8 greatest(Floats8 a, Floats8 b) {
-    return _mm256_max_ps(a.v, b.v);
-}
-inline Floats8 absolute(Floats8 a) {
-    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v);
-}
-inline Floats8 sqrt(Floats8 a) {
-    return _mm256_sqrt_ps(a.v);
-}
-inline Floats8 floor(Floats8 a) {
-    return _mm256_floor_ps(a.v);
-}
-/// 0 in the lanes that are false.
-inline Floats8 where(Mask8 mask, Floats8 a) {
-    return _mm256_and_ps(mask.v, a.v);
-}
-/// a in the lanes that are true, b in the others.
-inline Floats8 where(Mask8 mask, Floats8 a, Floats8 b) {
-    return _mm256_blendv_ps(b.v, a.v, mask.v);
-}
-inline Ints8 where(Mask8 mask, Ints8 a) {
-    return _mm256_and_si256(_mm256_castps_si256(mask.v), a.v);
-}
-/// Rounded towards 0.
-inline Ints8 to_ints(Floats8 a) {
-    return _mm256_cvttps_epi32(a.v);
-}
 inline Floats8 to_floats(Ints8 a) {
     return _mm256_cvtepi32_ps(a.v);
 }
 inline Floats8 floats_of_bits(Ints8 a) {
     return _mm256_castsi256_ps(a.v);
-}
-inline Ints8 bits_of_floats(Floats8 a) {
-    return _mm256_castps_si256(a.v);
 }
 /// Horner's rule, `polynomial` of elementary.h; the coefficients from the highest power down.
 inline Floats8 polynomial_of_8(Floats8 x, std::initializer_list<float> coefficients) {
@@ -177,10 +123,6 @@ inline Floats8 polynomial_of_8(Floats8 x, std::initializer_list<float> coefficie
     while (++next != coefficients.end())
         sum = fma(x, sum, *next);
     return sum;
-}
-/// values[at], `at` within 0 to 7.
-inline Floats8 picked(Floats8 values, Ints8 at) {
-    return _mm256_permutevar8x32_ps(values.v, at.v);
 }
 
 /// Writes 8 complex numbers.
