@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/known_format.h"
 #include "core/text.h"
 
 namespace sonarsim {

@@ -1,9 +1,7 @@
 #include "core/file.h"
 
-#include <fcntl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,30 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/text.h"
 
 namespace sonarsim {
 
 namespace {
-
-class Descriptor {
-  public:
-    Descriptor(const std::filesystem::path& path, int flags)
-        : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int get() const { return fd_; }
-    /// Returns the result of close(): some file systems report a full disk only here.
-    bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
-
-  private:
-    int fd_;
-};
 
 std::string reason() {
     return std::generic_category().message(errno);
@@ -67,12 +48,10 @@ enum class Durable { no, yes };
 void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
     Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (file.get() < 0) throw_errno("cannot write", path);
-    while (!bytes.empty()) {
-        const ssize_t put = ::write(file.get(), bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) throw_errno("cannot write", path);
-        bytes.remove_prefix(static_cast<std::size_t>(put));
-    }
+    if (!move_all(bytes.size(), [&](std::size_t done) {
+            return ::write(file.get(), bytes.data() + done, bytes.size() - done);
+        }))
+        throw_errno("cannot write", path);
     if (durable == Durable::yes && ::fsync(file.get()) != 0) throw_errno("cannot write", path);
     if (!file.close()) throw_errno("cannot write", path);
 }
@@ -117,28 +96,19 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
                                     std::to_string(limit) + " are read");
     }
     std::string bytes(size, '\0');
-    std::size_t done = 0;
-    while (done < size) {
-        const ssize_t got = ::read(file.get(), bytes.data() + done, size - done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw InputError(where, "cannot read: " + reason());
-        if (got == 0) break;
-        done += static_cast<std::size_t>(got);
-    }
-    bytes.resize(done);
+    const auto got = move_all(size, [&](std::size_t done) {
+        return ::read(file.get(), bytes.data() + done, size - done);
+    });
+    if (!got) throw InputError(where, "cannot read: " + reason());
+    bytes.resize(*got);
     return bytes;
 }
 
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
-    std::array<unsigned char, random_bytes> random;
+    std::array<std::uint8_t, random_bytes> random;
     if (::getrandom(random.data(), random.size(), 0) != random_bytes)
         throw_errno("cannot write", path);
-    std::string digits;
-    for (const unsigned byte : random) {
-        digits += "0123456789abcdef"[byte >> 4];
-        digits += "0123456789abcdef"[byte & 15U];
-    }
-    return path.parent_path() / ("." + path.filename().string() + "." + digits + ".part");
+    return path.parent_path() / ("." + path.filename().string() + "." + hex_text(random) + ".part");
 }
 
 bool is_temporary_name(std::string_view name) {

@@ -1,15 +1,14 @@
 #include "core/hash.h"
 
-#include <fcntl.h>
 #include <nettle/sha2.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <vector>
 
+#include "core/descriptor.h"
 #include "core/file.h"
+#include "core/text.h"
 
 namespace sonarsim {
 
@@ -24,12 +23,7 @@ class Sha256 {
     std::string digest() {
         std::array<std::uint8_t, SHA256_DIGEST_SIZE> bytes;
         sha256_digest(&context_, bytes.size(), bytes.data());
-        std::string text;
-        for (const std::uint8_t byte : bytes) {
-            text += "0123456789abcdef"[byte >> 4U];
-            text += "0123456789abcdef"[byte & 15U];
-        }
-        return text;
+        return hex_text(bytes);
     }
 
   private:
@@ -58,21 +52,18 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) throw_errno("cannot read", path);
+    const Descriptor file(path, O_RDONLY);
+    if (file.get() < 0) throw_errno("cannot read", path);
     Sha256 hash;
     std::vector<char> piece(std::size_t{1} << 18);
-    ssize_t got = 1;
-    while (got != 0) {
-        got = ::read(fd, piece.data(), piece.size());
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) break;
-        hash.add({piece.data(), static_cast<std::size_t>(got)});
+    for (std::size_t size = piece.size(); size == piece.size();) {
+        const auto got = move_all(piece.size(), [&](std::size_t done) {
+            return ::read(file.get(), piece.data() + done, piece.size() - done);
+        });
+        if (!got) throw_errno("cannot read", path);
+        size = *got;
+        hash.add({piece.data(), size});
     }
-    const int reason = errno;
-    ::close(fd);
-    errno = reason;
-    if (got < 0) throw_errno("cannot read", path);
     return hash.digest();
 }
 

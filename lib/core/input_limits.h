@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 // Limits on what the program accepts from files and missions. Beyond them numbers overflow or lose
 // the promised precision.
 
@@ -22,10 +20,5 @@ inline constexpr double furthest_s = 1e12;
 // floats. The densest metal has 2.3e4 kg/m^3, sound in diamond 1.8e4 m/s.
 inline constexpr double min_medium = 1e-9;
 inline constexpr double largest_medium = 1e9;
-
-/// True if arrays and objects of a JSON text are nested more than `levels` deep. Recursive
-/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. The text need
-/// not be valid JSON.
-bool is_nested_deeper(std::string_view text, int levels);
 
 }  // namespace sonarsim

@@ -1,13 +1,12 @@
 #include "core/no_links.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -19,33 +18,24 @@ namespace {
 class RegularFile {
   public:
     explicit RegularFile(const std::filesystem::path& path)
-        : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC)) {
+        : path_(path), file_(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW) {
         struct stat status {};
-        if (fd_ < 0 || ::fstat(fd_, &status) != 0) refuse();
+        if (file_.get() < 0 || ::fstat(file_.get(), &status) != 0) refuse();
         size_ = static_cast<std::size_t>(status.st_size);
-        if (S_ISREG(status.st_mode)) return;
-        ::close(fd_);
-        throw InputError({path_.string()}, "is not a regular file");
+        if (!S_ISREG(status.st_mode)) throw InputError({path_.string()}, "is not a regular file");
     }
-    ~RegularFile() { ::close(fd_); }
-    RegularFile(const RegularFile&) = delete;
-    RegularFile& operator=(const RegularFile&) = delete;
 
     std::size_t size() const { return size_; }
 
     /// Fewer than `size` bytes where the file ends.
     std::string read(std::size_t offset, std::size_t size) const {
         std::string bytes(std::min(size, size_ - std::min(offset, size_)), '\0');
-        std::size_t done = 0;
-        while (done < bytes.size()) {
-            const ssize_t got = ::pread(fd_, bytes.data() + done, bytes.size() - done,
-                                        static_cast<off_t>(offset + done));
-            if (got < 0 && errno == EINTR) continue;
-            if (got < 0) refuse();
-            if (got == 0) break;
-            done += static_cast<std::size_t>(got);
-        }
-        bytes.resize(done);
+        const auto got = move_all(bytes.size(), [&](std::size_t done) {
+            return ::pread(file_.get(), bytes.data() + done, bytes.size() - done,
+                           static_cast<off_t>(offset + done));
+        });
+        if (!got) refuse();
+        bytes.resize(*got);
         return bytes;
     }
 
@@ -58,7 +48,7 @@ class RegularFile {
     }
 
     const std::filesystem::path& path_;
-    int fd_;
+    Descriptor file_;
     std::size_t size_ = 0;
 };
 

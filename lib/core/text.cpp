@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace sonarsim {
@@ -24,8 +25,14 @@ std::optional<T> parse_whole(std::string_view text) {
     return value;
 }
 
+constexpr std::string_view hex_digits = "0123456789abcdef";
+
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+char upper(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
 /// Letters of either case are the same.
@@ -100,7 +107,6 @@ std::string_view without_byte_order_mark(std::string_view text) {
 }
 
 std::string printable(std::string_view text) {
-    constexpr std::string_view digits = "0123456789abcdef";
     std::string out;
     while (!text.empty()) {
         const auto byte = static_cast<unsigned char>(text[0]);
@@ -114,7 +120,7 @@ std::string printable(std::string_view text) {
             if (shown) {
                 out += c;
             } else {
-                out += {'\\', 'x', digits[value >> 4U], digits[value & 15U]};
+                out += {'\\', 'x', hex_digits[value >> 4U], hex_digits[value & 15U]};
             }
         }
         text.remove_prefix(taken);
@@ -135,6 +141,59 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
         }
     }
     return nearest ? " (did you mean '" + *nearest + "'?)" : "";
+}
+
+std::string_view known_format(std::string_view bytes) {
+    using namespace std::literals;
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 9> formats{
+        {{"glTF", "a .glb mesh"},
+         {"{", "JSON, such as a .gltf mesh"},
+         {"II*\0"sv, "a TIFF picture, such as a GeoTIFF"},
+         {"MM\0*"sv, "a TIFF picture, such as a GeoTIFF"},
+         {"\x89PNG", "a PNG picture"},
+         {"\x93NUMPY", "a NumPy array"},
+         {"BLENDER", "a Blender file"},
+         {"PK\x03\x04", "a ZIP archive, such as a spreadsheet"},
+         {"version https://git-lfs", "a pointer of Git LFS, whose file `git lfs pull` fetches"}}};
+    for (const auto& [begin, format] : formats) {
+        if (bytes.starts_with(begin)) return format;
+    }
+    return {};
+}
+
+bool is_nested_deeper(std::string_view text, int levels) {
+    int depth = 0;
+    bool is_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (is_string && c == '\\') {
+            ++i;
+        } else if (c == '"') {
+            is_string = !is_string;
+        } else if (!is_string && (c == '[' || c == '{')) {
+            if (++depth > levels) return true;
+        } else if (!is_string && (c == ']' || c == '}')) {
+            --depth;
+        }
+    }
+    return false;
+}
+
+std::string hex_text(std::span<const std::uint8_t> bytes) {
+    std::string text;
+    for (const std::uint8_t byte : bytes)
+        text += {hex_digits[byte >> 4U], hex_digits[byte & 15U]};
+    return text;
+}
+
+std::string in_lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), lower);
+    return text;
+}
+
+std::string in_capitals(std::string text) {
+    std::ranges::transform(text, text.begin(), upper);
+    return text;
 }
 
 }  // namespace sonarsim

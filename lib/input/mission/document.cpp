@@ -9,7 +9,6 @@
 #include <sstream>
 #include <utility>
 
-#include "core/known_format.h"
 #include "core/text.h"
 #include "input/mission/yaml_faults.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -224,9 +223,7 @@ Trajectory parse_tum(std::string_view text, const std::string& file) {
 }
 
 Trajectory read_trajectory(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = in_lower_case(file.extension().string());
     const bool csv = extension == ".csv";
     if (!csv && extension != ".txt" && extension != ".tum") {
         throw InputError(Location{file.string()},

@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/input_limits.h"
 #include "core/text.h"
 #include "input/mission/dataset_names.h"
 #include "input/trajectory/trajectory.h"

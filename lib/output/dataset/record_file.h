@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/descriptor.h"
 #include "output/format/npy.h"
 
 namespace sonarsim {
@@ -36,9 +37,6 @@ class RecordFile {
     /// file to be read is not of this format and length.
     RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records,
                RecordAccess access = RecordAccess::write);
-    ~RecordFile();
-    RecordFile(const RecordFile&) = delete;
-    RecordFile& operator=(const RecordFile&) = delete;
 
     std::size_t records() const { return records_; }
     std::size_t record_bytes() const { return record_bytes_; }
@@ -65,7 +63,7 @@ class RecordFile {
     std::size_t record_bytes_;
     std::size_t header_bytes_;
     RecordAccess access_;
-    int fd_ = -1;
+    Descriptor file_;
 };
 
 }  // namespace sonarsim

@@ -1,13 +1,11 @@
 #include "run/job/journal.h"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <sstream>
 #include <utility>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -120,13 +118,10 @@ void Journal::make_checkpoints(double seconds_between) {
 
 void Journal::append(std::string_view lines) const {
     sync_file_system(lock_.folder());
-    while (!lines.empty()) {
-        const ssize_t put = ::write(lock_.fd(), lines.data(), lines.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) throw_errno("cannot write", lock_.part());
-        lines.remove_prefix(static_cast<std::size_t>(put));
-    }
-    if (::fdatasync(lock_.fd()) != 0) throw_errno("cannot write", lock_.part());
+    const auto written = move_all(lines.size(), [&](std::size_t done) {
+        return ::write(lock_.fd(), lines.data() + done, lines.size() - done);
+    });
+    if (!written || ::fdatasync(lock_.fd()) != 0) throw_errno("cannot write", lock_.part());
 }
 
 }  // namespace sonarsim

@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/no_links.h"
@@ -35,11 +36,8 @@ int lock_now(int fd, int mode) {
 }
 
 bool is_locked(const fs::path& part) {
-    const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    if (fd < 0) return false;
-    const bool locked = lock_now(fd, LOCK_SH) == EWOULDBLOCK;
-    ::close(fd);
-    return locked;
+    const Descriptor file(part, O_RDONLY | O_NOFOLLOW);
+    return file.get() >= 0 && lock_now(file.get(), LOCK_SH) == EWOULDBLOCK;
 }
 
 /// True if a run that is not of the same division in `shards` writes into the folder;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -14,8 +13,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/input_limits.h"
-#include "core/known_format.h"
 #include "core/text.h"
 #include "input/scene/gltf/nodes.h"
 
@@ -158,10 +155,7 @@ std::string reduced_glb(std::string_view bytes, const Location& where) {
 void require_json(const std::filesystem::path& path, std::string_view bytes) {
     const Location where{path.string()};
     constexpr std::array<std::string_view, 5> others{".fbx", ".dae", ".3ds", ".blend", ".off"};
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (contains(others, extension)) {
+    if (contains(others, in_lower_case(path.extension().string()))) {
         const std::string name = path.stem().string();
         throw InputError(where,
                          "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: "

@@ -14,12 +14,6 @@ namespace sonarsim {
 
 namespace {
 
-std::string in_capitals(std::string text) {
-    for (char& letter : text)
-        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
-    return text;
-}
-
 /// The world file next to an image; empty if there is none. For ".tif" its extension is ".tfw",
 /// ".tifw" or ".wld", in lower case or capitals.
 std::filesystem::path find_world_file(const std::filesystem::path& image) {

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "core/known_format.h"
 #include "core/module.h"
 #include "core/text.h"
 #include "input/scene/images/module.h"

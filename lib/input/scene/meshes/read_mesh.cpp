@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <map>
 #include <string>
@@ -26,9 +25,7 @@ constexpr std::size_t max_mesh_bytes = std::size_t{1} << 31;
 
 /// "stl" for "Hull.STL".
 std::string format_of(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string extension = in_lower_case(path.extension().string());
     return extension.empty() ? "" : extension.substr(1);
 }
 
@@ -113,9 +110,7 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
     std::string_view whole = bytes;
     if (format == "stl") whole = whole_stl(bytes, file);
     if (format == "ply") require_whole_ply(bytes, file);
-    std::string title = format;
-    for (char& c : title)
-        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const std::string title = in_capitals(format);
     const Location where{file};
     ModelBuilder builder(path);
     std::array<char, 400> error{};
