@@ -19,7 +19,6 @@
 #include "core/text.h"
 #include "logging.h"
 #include "output/format/png.h"
-#include "python_tools.h"
 
 namespace {
 

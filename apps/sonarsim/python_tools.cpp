@@ -1,5 +1,3 @@
-#include "python_tools.h"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "commands.h"
 #include "core/error.h"
 
 namespace sonarsim {
@@ -34,7 +33,8 @@ constexpr std::array python_tools{
     PythonTool{"Use", "calibrate", "Fits a preset of the calibrated model to recorded pings"},
     PythonTool{"Make", "import-holoocean",
                "Writes a mission from the sonars and poses of a HoloOcean scenario"},
-    PythonTool{"Make", "import-poses", "Writes the poses of a topic of an MCAP file as a trajectory"},
+    PythonTool{"Make", "import-poses",
+               "Writes the poses of a topic of an MCAP file as a trajectory"},
 };
 
 // Debian's numpy belongs to this interpreter, which need not be the first in PATH.

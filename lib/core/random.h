@@ -139,6 +139,17 @@ inline NormalPair normal_pair(std::uint32_t word) {
     return {radius * angle.cos, radius * angle.sin};
 }
 
+struct TwoNormals {
+    double first, second;
+};
+
+/// Two independent draws of normal(0, 1) from a block of random words, by Box and Muller.
+inline TwoNormals two_normals(const PhiloxBlock& words) {
+    const double radius = std::sqrt(-2.0 * logarithm(1.0 - unit_double(words.x0, words.x1)));
+    const SinCos angle = sincos(2.0 * pi * unit_double(words.x2, words.x3));
+    return {radius * angle.cos, radius * angle.sin};
+}
+
 /// The name of a cell of a lattice in its random draws: the lowest 21 bits of its x and y and 22 of
 /// its z. Cells that lie 2^21 edges apart share draws, 42 km at 2 cm.
 struct CellName {

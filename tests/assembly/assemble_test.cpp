@@ -1,7 +1,7 @@
 #include "simulate/assembly/assemble.h"
 
 #include "input/mission/parse.h"
-#include "simulate/assembly/inputs_hash.h"
+#include "output/dataset/metadata.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
 #include "support/small_mission.h"

@@ -1,4 +1,4 @@
-#include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/ground_parts.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"

@@ -1,6 +1,5 @@
 #include "input/scene/placing/standing.h"
 
-#include "input/scene/unit_question.h"
 #include "support/test.h"
 
 using namespace sonarsim;

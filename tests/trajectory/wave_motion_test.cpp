@@ -1,6 +1,5 @@
-#include "input/trajectory/wave_motion.h"
-
 #include "core/pose.h"
+#include "input/trajectory/pose_changes.h"
 #include "support/test.h"
 
 namespace sonarsim {

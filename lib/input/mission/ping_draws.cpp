@@ -163,26 +163,14 @@ void check_rule(const Mission& mission, const VaryConfig& rule) {
 
 constexpr std::uint32_t max_tries = 1000;
 
-/// Draws two numbers in [0, 1).
-std::array<double, 2> unit_pair(PhiloxKey key, std::uint32_t attempt) {
-    const PhiloxBlock block = philox({attempt, 0, 0, 0}, key);
-    return {unit_double(block.x0, block.x1), unit_double(block.x2, block.x3)};
-}
-
 double part_of(const std::array<double, 2>& range, double share) {
     return range[0] + share * (range[1] - range[0]);
-}
-
-/// Draws a normal number by the method of Box and Muller.
-double standard_normal(const std::array<double, 2>& u) {
-    constexpr double turn = 6.283185307179586;
-    return std::sqrt(-2.0 * logarithm(1.0 - u[0])) * sincos(turn * u[1]).cos;
 }
 
 double draw_normal(const VaryConfig& rule, PhiloxKey key) {
     const auto [mean, sigma] = *rule.normal;
     for (std::uint32_t attempt = 0; attempt < max_tries; ++attempt) {
-        const double value = mean + sigma * standard_normal(unit_pair(key, attempt));
+        const double value = mean + sigma * two_normals(philox({attempt, 0, 0, 0}, key)).first;
         if (!rule.within || ((*rule.within)[0] <= value && value <= (*rule.within)[1]))
             return value;
     }
@@ -248,7 +236,8 @@ double share_within(const VaryConfig& rule) {
 std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t rule_index,
                        std::uint32_t number, Stream stream) {
     const PhiloxKey key = stream_key(seed, rule_index, number, stream);
-    const double share = unit_pair(key, 0)[0];
+    const PhiloxBlock words = philox({0, 0, 0, 0}, key);
+    const double share = unit_double(words.x0, words.x1);
     if (rule.normal) return number_text(draw_normal(rule, key));
     if (rule.uniform) return number_text(part_of(*rule.uniform, share));
     if (rule.log_uniform || rule.scale) {

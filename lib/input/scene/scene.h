@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -45,7 +46,12 @@ struct Material {
 
 /// The power reflection coefficient at normal incidence, ((z - z_w) / (z + z_w))^2 with the
 /// impedance z = rho c, Eq. 4-5.
-double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water);
+inline double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water) {
+    const double z = density_kg_m3 * sound_speed_m_s;
+    const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
+    const double ratio = (z - z_w) / (z + z_w);
+    return ratio * ratio;
+}
 
 /// The surface of the water. It reflects sound from below specularly.
 struct WaterSurface {
@@ -121,6 +127,9 @@ struct Scene {
 /// True if `vertex_rounding_m` spoils the scene: it is more than a millimetre, about the finest
 /// range bin (8,192 of them over 10 m), or more than 1e-4 of a scene below 10 m. It must also be
 /// more than 1e-6 of the scene, since floats about its own centre have errors of up to 6e-8.
-bool has_coarse_vertices(const Scene& scene);
+inline bool has_coarse_vertices(const Scene& scene) {
+    const double size = (scene.bounds_max - scene.bounds_min).maxCoeff();
+    return scene.vertex_rounding_m > std::max(std::min(1e-3, 1e-4 * size), 1e-6 * size);
+}
 
 }  // namespace sonarsim

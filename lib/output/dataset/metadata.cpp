@@ -1,11 +1,14 @@
 #include "output/dataset/metadata.h"
 
 #include "core/build_info.h"
+#include "core/hash.h"
+#include "core/text.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
+#include "input/scene/maps/ground_maps.h"
+#include "input/trajectory/files.h"
 #include "output/dataset/annotated_objects.h"
 #include "output/format/png.h"
-#include "simulate/assembly/inputs_hash.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
@@ -142,6 +145,11 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
     return json;
 }
 
+template <class T>
+std::string hash_of(const std::vector<T>& values) {
+    return sha256({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
 }  // namespace
 
 Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout,
@@ -192,6 +200,24 @@ std::string resolved_text(const Mission& mission, const Assembly& assembly) {
     for (const InputFile& input : assembly.inputs)
         text += "#     " + input.sha256 + "  " + portable_name(mission, input) + '\n';
     return text + resolved_yaml(portable(mission), sonar_keys());
+}
+
+std::string inputs_hash(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    // Vertices may lie in a file that a glTF names, which is not among the inputs.
+    std::string text = hash_of(scene.vertices) + hash_of(scene.triangles);
+    for (const double x : {scene.origin.x(), scene.origin.y(), scene.origin.z()})
+        text += " " + number_text(x);
+    for (const Body& body : scene.bodies)
+        text += hash_of(body.vertices) + hash_of(body.triangles);
+    for (const SharedMesh& mesh : scene.shared_meshes)
+        text += hash_of(mesh.vertices) + hash_of(mesh.triangles);
+    if (scene.maps) text += scene.maps->identity();
+    for (const InputFile& input : assembly.inputs)
+        text += "\n" + input.sha256;
+    for (const Trajectory& motion : assembly.motions)
+        text += "\n" + write_tum(motion);
+    return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
 }
 
 }  // namespace sonarsim

@@ -11,7 +11,7 @@
 #include "core/clock.h"
 #include "core/file.h"
 #include "output/dataset/encode_ping.h"
-#include "simulate/assembly/engines.h"
+#include "simulate/assembly/assemble.h"
 #include "simulate/assembly/poses.h"
 
 namespace sonarsim {

@@ -6,7 +6,7 @@
 #include "output/dataset/layout.h"
 #include "run/job/run_job.h"
 #include "run/report/report.h"
-#include "simulate/assembly/engines.h"
+#include "simulate/assembly/assemble.h"
 
 namespace sonarsim {
 

@@ -2,7 +2,7 @@
 
 #include "core/ordered_pipeline.h"
 #include "run/report/report.h"
-#include "simulate/assembly/engines.h"
+#include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/setup.h"
 

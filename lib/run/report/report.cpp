@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "input/scene/copies.h"
 #include "run/checks/measured_error.h"
-#include "simulate/assembly/engines.h"
+#include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/view.h"

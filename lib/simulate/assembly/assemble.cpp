@@ -286,4 +286,11 @@ std::vector<Pose> body_poses(const Assembly& assembly, double t_s) {
     return poses_at(assembly.motions, t_s);
 }
 
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission);
+    if (settings.type != EngineKind::octree)
+        settings.caster = std::make_shared<const Caster>(assembly.make_caster());
+    return make_engine(assembly.scene, settings);
+}
+
 }  // namespace sonarsim

@@ -13,6 +13,7 @@
 #include "simulate/assembly/scene_store.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/caster.h"
+#include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {
 
@@ -56,5 +57,9 @@ void check_places(const Mission& mission, SceneStore& models);
 
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
+
+/// The engine of a mission, over the trees that its assembly has made. The assembly must outlive
+/// it.
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly);
 
 }  // namespace sonarsim

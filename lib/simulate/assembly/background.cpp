@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/ground_parts.h"
 
 namespace sonarsim {
 

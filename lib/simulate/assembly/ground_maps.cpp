@@ -13,7 +13,7 @@
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/maps/read_maps.h"
 #include "input/scene/objects.h"
-#include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/ground_parts.h"
 
 namespace sonarsim {
 

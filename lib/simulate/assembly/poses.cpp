@@ -14,9 +14,8 @@
 #include "core/units.h"
 #include "input/mission/ping_draws.h"
 #include "input/trajectory/files.h"
-#include "input/trajectory/navigation.h"
 #include "input/trajectory/patterns.h"
-#include "input/trajectory/wave_motion.h"
+#include "input/trajectory/pose_changes.h"
 #include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "input/scene/gltf/load.h"
 #include "input/scene/gltf/scene_files.h"
-#include "input/scene/gltf/surface_of.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/surface.h"

@@ -41,7 +41,7 @@ std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar
 nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 /// The settings of a mission's `engine` and `octree` keys. For `auto` see also
-/// simulate/assembly/engines.h.
+/// simulate/assembly/assemble.h.
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
 EngineSettings engine_settings(const Mission& mission);
 

@@ -1,7 +1,6 @@
 #include "input/scene/heightmap/height_model.h"
 
 #include "input/scene/gltf/load.h"
-#include "input/scene/gltf/surface_of.h"
 #include "input/scene/placing/bottom.h"
 #include "output/format/geotiff.h"
 #include "support/test.h"

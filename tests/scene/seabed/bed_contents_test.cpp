@@ -1,5 +1,4 @@
 #include "input/scene/gltf/load.h"
-#include "input/scene/gltf/surface_of.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/seabed/bed_model.h"
 #include "input/scene/seabed/seabed.h"

@@ -1,6 +1,6 @@
 #include "input/scene/seabed/seabed.h"
 
-#include "input/scene/gltf/surface_of.h"
+#include "input/scene/gltf/load.h"
 #include "input/scene/seabed/relief.h"
 #include "support/test.h"
 

@@ -10,6 +10,7 @@
 #include "input/scene/materials.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/scene.h"
+#include "input/scene/surface.h"
 
 namespace sonarsim {
 
@@ -56,5 +57,10 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
 /// file names none.
 Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models);
 Scene load_scene_geometry(const std::filesystem::path& path);
+
+/// The triangles of a placed file, or only of its nodes that match one of `nodes`. InputError as
+/// load_scene, and at the place of the file for a pattern that matches no node.
+Surface surface_of(const PlacedFile& file, SceneFiles& models,
+                   std::span<const std::string> nodes = {});
 
 }  // namespace sonarsim

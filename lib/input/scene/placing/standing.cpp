@@ -1,5 +1,7 @@
 #include "input/scene/placing/standing.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -67,6 +69,15 @@ std::string up_question(const PlacedFile& file, const Surface& surface) {
         vertex[y] = -vertex[y];
     if (rests_upright(surface, up) || !rests_upright(turned, y)) return "";
     return name + " lies on its side with y up and would stand" + question;
+}
+
+std::string unit_question(double length_m, double unit_m, double range_m, double ranges) {
+    constexpr double milli = 1e-3;
+    if (unit_m == 1.0 && length_m > ranges * range_m && milli * length_m < range_m)
+        return fmt::format("{:.4g} m long: millimetres? units: mm", length_m);
+    if (unit_m == milli && length_m > 0.0 && length_m < milli * range_m)
+        return fmt::format("{:.3g} m long: metres? units: m", length_m);
+    return "";
 }
 
 }  // namespace sonarsim

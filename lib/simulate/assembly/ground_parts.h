@@ -1,12 +1,16 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "input/mission/seabed_keys.h"
 #include "input/scene/placed_file.h"
+#include "input/scene/seabed/seabed.h"
 #include "input/trajectory/trajectory.h"
 #include "simulate/assembly/scene_store.h"
 #include "simulate/sonar/sonar.h"
@@ -27,5 +31,14 @@ Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes);
 
 /// The part of a heightmap over a box of the world.
 PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed);
+
+/// The rule of a mission's seabed, without the window that is made.
+SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed);
+
+/// The placed seabed of a mission, made above `needed`, world x and y. `announce` gets a sentence
+/// before a large one is made; it may be null.
+PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
+                     const Eigen::AlignedBox2d& needed,
+                     const std::function<void(const std::string&)>& announce);
 
 }  // namespace sonarsim

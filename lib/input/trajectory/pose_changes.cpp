@@ -1,7 +1,8 @@
-#include "input/trajectory/wave_motion.h"
+#include "input/trajectory/pose_changes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -70,6 +71,32 @@ void add_wave_motion(const WaveMotion& motion, PhiloxKey draws, Trajectory& pose
         wave.rotation = rotation_from_rpy(roll, pitch, yaw);
         pose.T_world_vehicle = pose.T_world_vehicle * wave;
     }
+}
+
+bool NavigationErrors::is_on() const {
+    return position_m > 0.0 || depth_m > 0.0 || tilt_rad > 0.0 || heading_rad > 0.0;
+}
+
+Trajectory reported_poses(const Trajectory& truth, const NavigationErrors& errors,
+                          PhiloxKey draws) {
+    Trajectory out = truth;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        // Counter 0 is left out, so that poses keep their draws.
+        const auto counter = static_cast<std::uint32_t>(i) + 1;
+        const TwoNormals position_draws = two_normals(philox({counter, 0, 0, 0}, draws));
+        const TwoNormals tilt_draws = two_normals(philox({counter, 1, 0, 0}, draws));
+        const TwoNormals other_draws = two_normals(philox({counter, 2, 0, 0}, draws));
+        Pose& pose = out[i].T_world_vehicle;
+        pose.translation += Eigen::Vector3d(errors.position_m * position_draws.first,
+                                            errors.position_m * position_draws.second,
+                                            errors.depth_m * other_draws.first);
+        pose.rotation =
+            (rotation_from_rpy(0.0, 0.0, errors.heading_rad * other_draws.second) * pose.rotation *
+             rotation_from_rpy(errors.tilt_rad * tilt_draws.first,
+                               errors.tilt_rad * tilt_draws.second, 0.0))
+                .normalized();
+    }
+    return out;
 }
 
 }  // namespace sonarsim

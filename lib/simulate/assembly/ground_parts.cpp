@@ -1,10 +1,14 @@
-#include "simulate/assembly/seabed_part.h"
+#include "simulate/assembly/ground_parts.h"
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 
 #include "core/units.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -38,6 +42,65 @@ void announce_large(const BedGrid& grid, const std::function<void(const std::str
 }
 
 }  // namespace
+
+Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
+                                    const Trajectory& vehicle, double faster) {
+    Eigen::AlignedBox2d seen;
+    for (const Sonar& sonar : sonars) {
+        const double reach_m = faster * sonar.settings.view.range_max_m;
+        const auto extend = [&](const Pose& at) {
+            const Eigen::Vector2d place = at.translation.head<2>();
+            seen.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
+        };
+        const int later_groups = sonar.config.shutter.groups - 1;
+        for (std::size_t i = 0; i < vehicle.size(); ++i) {
+            const auto pose = static_cast<std::uint32_t>(i);
+            const SonarAtPose then(mission, sonar, pose);
+            const Pose at = sensor_pose(*then, vehicle[i].T_world_vehicle, pose);
+            extend(at);
+            if (!sonar.motions || later_groups == 0) continue;
+            const PingMotion& motion = (*sonar.motions)[i];
+            if (motion.is_still()) continue;
+            const double last_s = later_groups * group_period_s(sonar, motion.sound_speed_m_s);
+            extend(pose_after(motion, at, last_s));
+        }
+    }
+    return seen;
+}
+
+std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
+    if (!scene.bottom.empty()) return scene.bottom;
+    if (scene.heightmap) return {heightmap_instance};
+    if (scene.seabed) return {seabed_instance};
+    return {};
+}
+
+Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) {
+    Eigen::AlignedBox2d ground;
+    for (const ObjectConfig& object : scene.objects) {
+        if (object.trajectory) continue;
+        double reach_m = 0.0;
+        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices)
+            reach_m = std::max(reach_m, object.scale * vertex.norm());
+        const Eigen::Vector2d at(object.position_m.data());
+        ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
+    }
+    for (const ScatterConfig& scatter : scene.scatter) {
+        if (!scatter.area_min_m) continue;
+        ground.extend(Eigen::Vector2d(scatter.area_min_m->data()));
+        ground.extend(Eigen::Vector2d(scatter.area_max_m->data()));
+    }
+    return ground;
+}
+
+PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed) {
+    PlacedFile map = file_of(heightmap);
+    const Eigen::Vector2d origin(heightmap.origin_m.data());
+    const Eigen::Vector2d low = needed.min() + origin;
+    const Eigen::Vector2d high = needed.max() + origin;
+    map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};
+    return map;
+}
 
 SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
     SeabedRule rule;
