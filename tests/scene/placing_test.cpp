@@ -133,19 +133,22 @@ bool meet_from_above(const Surface& one, const Surface& other) {
 }
 
 /// Twenty objects that are drawn, in their places.
-std::vector<Surface> put(const std::vector<Surface>& shapes, ScatterRule rule, std::uint64_t seed,
+std::vector<Surface> put(const std::vector<Surface>& shapes, ScatterConfig rule, std::uint64_t seed,
                          const Bottom& bottom) {
     rule.name = "thing";
+    std::vector<const Surface*> kinds;
     for (const Surface& shape : shapes)
-        rule.shapes.push_back(&shape);
+        kinds.push_back(&shape);
     rule.count = {20, 20};
-    rule.area = {Eigen::Vector2d(-8, -8), Eigen::Vector2d(8, 8)};
-    rule.rpy_rad = {{{-0.5, 0.5}, {-0.5, 0.5}, {-3.0, 3.0}}};
+    rule.area_min_m = {-8, -8};
+    rule.area_max_m = {8, 8};
+    rule.roll_deg = {-29, 29};
+    rule.pitch_deg = {-29, 29};
+    rule.yaw_deg = {-172, 172};
     rule.scale = {0.6, 1.4};
-    rule.tries = 1000;
     TakenGround taken;
     std::vector<Surface> out;
-    for (const ScatteredObject& object : scatter(rule, 0, seed, bottom, taken))
+    for (const ScatteredObject& object : scatter(rule, kinds, 0, seed, bottom, taken))
         out.push_back(moved(shapes[object.shape], object.T_world_shape));
     return out;
 }
@@ -159,7 +162,7 @@ TEST_SUITE("scene") {
         const std::vector<Surface> shapes{box(0.3, 0.2, 0.1), box(0.5, 0.05, 0.05),
                                           box(0.15, 0.15, 0.4)};
         for (const bool align : {false, true}) {
-            ScatterRule rule;
+            ScatterConfig rule;
             rule.align = align;
             double highest = -1e9;
             double lowest = 1e9;
@@ -188,7 +191,7 @@ TEST_SUITE("scene") {
     TEST_CASE("placing: burial, the same draws from the same seed, others from another") {
         const Bottom bottom(Waves::surface());
         const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
-        ScatterRule rule;
+        ScatterConfig rule;
         rule.bury_m = {0.07, 0.07};
         const auto once = put(shapes, rule, 5, bottom);
         const auto again = put(shapes, rule, 5, bottom);
@@ -205,12 +208,12 @@ TEST_SUITE("scene") {
         const Bottom bottom(Waves::surface());
         const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
         for (const double share : {0.4, -0.5}) {
-            ScatterRule rule;
+            ScatterConfig rule;
             rule.bury = {share, share};
             for (const Surface& one : put(shapes, rule, 5, bottom))
                 CHECK(std::fabs(min_gap(one) + share * box_of(one).sizes().z()) < 1e-3);
         }
-        ScatterRule rule;
+        ScatterConfig rule;
         rule.bury_m = {0.0, 3.0};  // few of the draws leave a part in sight
         rule.overlap = true;
         for (const Surface& one : put(shapes, rule, 5, bottom))
@@ -284,13 +287,13 @@ TEST_SUITE("scene") {
         const Surface shape = box(0.3, 0.2, 0.1);
         const auto seconds = [&](double count) {
             TakenGround taken;
-            ScatterRule rule;
-            rule.shapes = {&shape};
+            ScatterConfig rule;
+            const Surface* const shapes[] = {&shape};
             rule.count = {count, count};
-            rule.area = {Eigen::Vector2d(-499, -499), Eigen::Vector2d(499, 499)};
-            rule.tries = 1000;
+            rule.area_min_m = {-499, -499};
+            rule.area_max_m = {499, 499};
             const std::clock_t before = std::clock();
-            scatter(rule, 0, 1, bottom, taken);
+            scatter(rule, shapes, 0, 1, bottom, taken);
             return static_cast<double>(std::clock() - before);
         };
         seconds(1000);

@@ -9,7 +9,7 @@ TEST_SUITE("navigation") {
         const Trajectory truth{{0.0, {.translation = {0.0, 5.0, -10.0}}},
                                {10.0, {.translation = {10.0, 5.0, -10.0}}}};
         // The quantities y, z, pitch and yaw, less the truth.
-        const auto errors_of = [&](const NavigationErrors& errors, std::uint32_t seed) {
+        const auto errors_of = [&](const NavigationConfig& errors, std::uint32_t seed) {
             const PhiloxKey key = stream_key(seed, 0, 0, stream_named("navigation"));
             const TimedPose reported = reported_poses(truth, errors, key).back();
             CHECK(reported.t_s == 10.0);
@@ -18,8 +18,11 @@ TEST_SUITE("navigation") {
             return Eigen::Array4d(pose.translation.y() - 5.0, pose.translation.z() + 10.0,
                                   rpy.pitch, rpy.yaw);
         };
-        const NavigationErrors single[] = {
-            {.position_m = 2.0}, {.depth_m = 0.1}, {.tilt_rad = 0.01}, {.heading_rad = 0.02}, {}};
+        const NavigationConfig single[] = {{.position_m = 2.0},
+                                           {.depth_m = 0.1},
+                                           {.tilt_deg = degrees(0.01)},
+                                           {.heading_deg = degrees(0.02)},
+                                           {}};
         for (int which = 0; which < 5; ++which) {
             constexpr int draws = 2000;
             Eigen::Array4d squares = Eigen::Array4d::Zero();

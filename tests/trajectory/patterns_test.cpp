@@ -28,7 +28,7 @@ double turn(double a, double b) {
 }
 
 /// Lines of a survey over 40 x 20 m at 1 m/s and 10 Hz.
-Lawnmower survey(double heading_deg, double spacing) {
+LawnmowerTrajectoryConfig survey(double heading_deg, double spacing) {
     return {{-10, 5}, {30, 25}, 3.0, heading_deg, spacing, 1.0, 10.0};
 }
 
@@ -88,7 +88,7 @@ TEST_SUITE("trajectory") {
 
     TEST_CASE("lawnmower: without turns only the lines are left, at their times") {
         const Trajectory all = lawnmower(survey(0.0, 5.0));
-        Lawnmower plan = survey(0.0, 5.0);
+        LawnmowerTrajectoryConfig plan = survey(0.0, 5.0);
         plan.turns = false;
         const Trajectory lines = lawnmower(plan);
         // Four lines of 40 m have 401 poses each; three turns of 5 m have 49 within.
@@ -114,7 +114,7 @@ TEST_SUITE("trajectory") {
         CHECK(one.size() == 401);
         CHECK(position(one.front()).y() == test::approx(15));
         // 2.1 / 0.7, a little more than 3 in doubles, makes three lines of 10 m and two steps.
-        const Lawnmower exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
+        const LawnmowerTrajectoryConfig exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
         CHECK(lawnmower(exact).size() == 315);
     }
 
@@ -122,15 +122,15 @@ TEST_SUITE("trajectory") {
               doctest::skip(test::sanitized)) {
         for (const double degrees_of_line : {0.0, 17.0, 45.0, 90.0, 133.0, -60.0, 180.0, 359.0}) {
             CAPTURE(degrees_of_line);
-            Lawnmower plan = survey(degrees_of_line, 4.0);
+            LawnmowerTrajectoryConfig plan = survey(degrees_of_line, 4.0);
             plan.rate_hz = 20.0;
             const Trajectory poses = lawnmower(plan);
             const Vector2d bow(std::cos(radians(degrees_of_line)),
                                std::sin(radians(degrees_of_line)));
             const Vector2d port(-bow.y(), bow.x());
             std::size_t holes = 0;
-            for (double x = plan.area_min_m.x(); x <= plan.area_max_m.x(); x += 1.0) {
-                for (double y = plan.area_min_m.y(); y <= plan.area_max_m.y(); y += 1.0) {
+            for (double x = plan.area_min_m[0]; x <= plan.area_max_m[0]; x += 1.0) {
+                for (double y = plan.area_min_m[1]; y <= plan.area_max_m[1]; y += 1.0) {
                     // Some pose on a line, of poses 5 cm apart, passes abeam within half the
                     // spacing.
                     holes += std::none_of(poses.begin(), poses.end(), [&](const TimedPose& pose) {
@@ -154,7 +154,7 @@ TEST_SUITE("trajectory") {
 
     TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
         // In one strip the line of a square at 45 degrees runs from corner to corner.
-        Lawnmower plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
+        LawnmowerTrajectoryConfig plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
         const double diagonal = 10.0 * std::sqrt(2.0);
         Trajectory poses = lawnmower(plan);
         CHECK(poses.back().t_s == test::approx(diagonal).epsilon(1e-3));

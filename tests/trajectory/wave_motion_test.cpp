@@ -28,7 +28,7 @@ TEST_SUITE("wave motion") {
         constexpr double deviation = 0.3;
         constexpr double period_s = 8.0;
         constexpr double lag_s = 3.0;
-        WaveMotion motion{.period_s = period_s};
+        MotionConfig motion{.period_s = period_s};
         motion.position_m[2] = deviation;
         double variance = 0.0;
         double product = 0.0;
@@ -56,9 +56,9 @@ TEST_SUITE("wave motion") {
     }
 
     TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
-        WaveMotion motion;
+        MotionConfig motion;
         motion.position_m[0] = 0.5;  // surge
-        motion.turn_rad[0] = 0.1;    // roll
+        motion.turn_deg[0] = 6.0;    // roll
         Trajectory poses = poses_on_the_spot({0.0, 1.0, 2.0});
         add_wave_motion(motion, wave_key(7), poses);
         for (const TimedPose& pose : poses) {

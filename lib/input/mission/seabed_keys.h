@@ -41,7 +41,7 @@ struct BedRockConfig {
     std::array<double, 2> diameter_m{};
     double exponent = 3.0;                   ///< rocks larger than D are as frequent as D^-exponent
     std::array<double, 2> buried{0.2, 0.6};  ///< share of a rock's height
-    std::string material;
+    std::string material = {};
 };
 
 /// A material that covers a share of the bed.

@@ -4,11 +4,8 @@ namespace sonarsim {
 
 std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene) {
     std::vector<Eigen::AlignedBox3d> mesh_boxes;
-    for (const SharedMesh& mesh : scene.shared_meshes) {
-        Eigen::AlignedBox3d& box = mesh_boxes.emplace_back();
-        for (const Eigen::Vector3f& vertex : mesh.vertices)
-            box.extend(vertex.cast<double>());
-    }
+    for (const SharedMesh& mesh : scene.shared_meshes)
+        mesh_boxes.push_back(box_of(mesh.vertices));
     std::vector<Eigen::AlignedBox3d> boxes;
     boxes.reserve(scene.copies.size());
     for (const MeshCopy& copy : scene.copies) {

@@ -3,11 +3,20 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "input/scene/scene.h"
 
 namespace sonarsim {
+
+/// The box around vertices, in their frame.
+inline Eigen::AlignedBox3d box_of(std::span<const Eigen::Vector3f> vertices) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& vertex : vertices)
+        box.extend(vertex.cast<double>());
+    return box;
+}
 
 /// World boxes around the copies of shared meshes, in the order of Scene::copies. Each encloses the
 /// rotated box of its mesh, so it may be up to sqrt(3) times as large along an axis as the copy

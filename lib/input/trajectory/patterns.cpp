@@ -19,9 +19,10 @@ namespace {
 constexpr int max_lines = 100'000;
 
 /// The corners of the survey's rectangle, in order: x along the heading, y to port.
-std::array<Eigen::Vector2d, 4> corners_along(const Lawnmower& survey, const SinCos& heading) {
-    const Eigen::Vector2d& lo = survey.area_min_m;
-    const Eigen::Vector2d& hi = survey.area_max_m;
+std::array<Eigen::Vector2d, 4> corners_along(const LawnmowerTrajectoryConfig& survey,
+                                             const SinCos& heading) {
+    const Eigen::Vector2d lo(survey.area_min_m.data());
+    const Eigen::Vector2d hi(survey.area_max_m.data());
     std::array<Eigen::Vector2d, 4> corners{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
     for (Eigen::Vector2d& corner : corners) {
         corner = {heading.cos * corner.x() + heading.sin * corner.y(),
@@ -57,7 +58,8 @@ Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Int
 
 /// Drops the poses between the lines of a survey, which have three waypoints each after the first
 /// two: half-way, start and end of the next line. The other poses keep their times.
-void drop_turns(std::span<const Waypoint> waypoints, const Lawnmower& survey, Trajectory& poses) {
+void drop_turns(std::span<const Waypoint> waypoints, const LawnmowerTrajectoryConfig& survey,
+                Trajectory& poses) {
     constexpr double rounding_s = 1e-9;
     std::vector<double> t_s{0.0};
     for (std::size_t k = 1; k < waypoints.size(); ++k) {
@@ -93,7 +95,7 @@ Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_
     return resample(knots, rate_hz);
 }
 
-Trajectory lawnmower(const Lawnmower& survey) {
+Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
     const double yaw = radians(survey.heading_deg);
     const SinCos heading = sincos(yaw);
     const auto corners = corners_along(survey, heading);

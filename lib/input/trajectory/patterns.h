@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "input/mission/trajectory_keys.h"
 #include "input/trajectory/trajectory.h"
 
 namespace sonarsim {
@@ -18,18 +19,6 @@ struct Waypoint {
 /// leg), and for what resample() refuses.
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz);
 
-/// A survey in parallel lines. The defaults are the mission's.
-struct Lawnmower {
-    Eigen::Vector2d area_min_m = Eigen::Vector2d::Zero();  ///< corner of least x and y, world
-    Eigen::Vector2d area_max_m = Eigen::Vector2d::Zero();  ///< corner of greatest x and y, world
-    double z_m = 0.0;                                      ///< height of the vehicle, world
-    double heading_deg = 0.0;  ///< heading of the first line; 0 along x, positive to the left
-    double line_spacing_m = 0.0;
-    double speed_m_s = 0.0;
-    double rate_hz = 0.0;
-    bool turns = true;  ///< false: without the poses between the lines
-};
-
 /// A lawnmower pattern over the rectangle at constant height and speed. The rectangle is cut along
 /// the heading into the fewest strips of width line_spacing_m that cover it with equal margins. A
 /// line runs along the middle of each strip, bow ahead, over the part of the strip that meets the
@@ -37,6 +26,6 @@ struct Lawnmower {
 /// before. At the end of a line the vehicle moves straight to the start of the next while it turns
 /// through the port side of the first line's heading. InputError if there are more than 100,000
 /// lines or more poses than max_poses.
-Trajectory lawnmower(const Lawnmower& survey);
+Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey);
 
 }  // namespace sonarsim

@@ -20,7 +20,7 @@ struct Cosine {
     double phase;
 };
 
-std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motion,
+std::vector<Cosine> draw_cosines(std::uint32_t movement, const MotionConfig& motion,
                                  PhiloxKey draws) {
     std::vector<Cosine> out;
     out.reserve(cosines);
@@ -45,13 +45,11 @@ double sum_at(const std::vector<Cosine>& spectrum, double t_s) {
 
 }  // namespace
 
-bool WaveMotion::is_on() const {
+void add_wave_motion(const MotionConfig& motion, PhiloxKey draws, Trajectory& poses) {
     const auto moves = [](double deviation) { return deviation > 0.0; };
-    return std::ranges::any_of(position_m, moves) || std::ranges::any_of(turn_rad, moves);
-}
-
-void add_wave_motion(const WaveMotion& motion, PhiloxKey draws, Trajectory& poses) {
-    if (poses.empty() || !motion.is_on()) return;
+    if (poses.empty() || !(std::ranges::any_of(motion.position_m, moves) ||
+                           std::ranges::any_of(motion.turn_deg, moves)))
+        return;
     std::array<std::vector<Cosine>, 6> spectra;
     for (std::uint32_t movement = 0; movement < spectra.size(); ++movement)
         spectra[movement] = draw_cosines(movement, motion, draws);
@@ -65,19 +63,15 @@ void add_wave_motion(const WaveMotion& motion, PhiloxKey draws, Trajectory& pose
         for (std::size_t axis = 0; axis < 3; ++axis)
             wave.translation[static_cast<Eigen::Index>(axis)] =
                 moved(axis, motion.position_m[axis]);
-        const double roll = moved(3, motion.turn_rad[0]);
-        const double pitch = moved(4, motion.turn_rad[1]);
-        const double yaw = moved(5, motion.turn_rad[2]);
+        const double roll = moved(3, radians(motion.turn_deg[0]));
+        const double pitch = moved(4, radians(motion.turn_deg[1]));
+        const double yaw = moved(5, radians(motion.turn_deg[2]));
         wave.rotation = rotation_from_rpy(roll, pitch, yaw);
         pose.T_world_vehicle = pose.T_world_vehicle * wave;
     }
 }
 
-bool NavigationErrors::is_on() const {
-    return position_m > 0.0 || depth_m > 0.0 || tilt_rad > 0.0 || heading_rad > 0.0;
-}
-
-Trajectory reported_poses(const Trajectory& truth, const NavigationErrors& errors,
+Trajectory reported_poses(const Trajectory& truth, const NavigationConfig& errors,
                           PhiloxKey draws) {
     Trajectory out = truth;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -91,9 +85,10 @@ Trajectory reported_poses(const Trajectory& truth, const NavigationErrors& error
                                             errors.position_m * position_draws.second,
                                             errors.depth_m * other_draws.first);
         pose.rotation =
-            (rotation_from_rpy(0.0, 0.0, errors.heading_rad * other_draws.second) * pose.rotation *
-             rotation_from_rpy(errors.tilt_rad * tilt_draws.first,
-                               errors.tilt_rad * tilt_draws.second, 0.0))
+            (rotation_from_rpy(0.0, 0.0, radians(errors.heading_deg) * other_draws.second) *
+             pose.rotation *
+             rotation_from_rpy(radians(errors.tilt_deg) * tilt_draws.first,
+                               radians(errors.tilt_deg) * tilt_draws.second, 0.0))
                 .normalized();
     }
     return out;

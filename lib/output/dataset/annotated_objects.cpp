@@ -8,13 +8,6 @@ ObjectSphere sphere_around(const Eigen::AlignedBox3d& box) {
     return {box.center(), 0.5 * box.diagonal().norm()};
 }
 
-Eigen::AlignedBox3d box_of_body(const Body& body) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f& vertex : body.vertices)
-        box.extend(vertex.cast<double>());
-    return box;
-}
-
 /// The box around the surface at rest of each object, world.
 std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
@@ -52,7 +45,7 @@ std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         const std::uint32_t object = objects.object_of(scene.bodies[k].instance);
         if (parts[object] > 1) continue;
-        moving[object] = {k, box_of_body(scene.bodies[k])};
+        moving[object] = {k, box_of(scene.bodies[k].vertices)};
     }
     return moving;
 }
@@ -71,7 +64,7 @@ AnnotatedObjects annotated_objects(const Assembly& assembly) {
     }
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         if (objects.is_background(objects.object_of(scene.bodies[k].instance))) continue;
-        annotated.moving.push_back({k, sphere_around(box_of_body(scene.bodies[k]))});
+        annotated.moving.push_back({k, sphere_around(box_of(scene.bodies[k].vertices))});
     }
     return annotated;
 }

@@ -47,10 +47,9 @@ std::vector<Extent> extents_of(const Scene& scene) {
     for (const Eigen::AlignedBox3d& box : boxes)
         extents.push_back(box.isEmpty() ? Extent{} : sphere_around(box, -1));
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-        Eigen::AlignedBox3d box;
-        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
-            box.extend(vertex.cast<double>());
-        extents[scene.bodies[k].instance] = sphere_around(box, static_cast<std::ptrdiff_t>(k));
+        const Body& body = scene.bodies[k];
+        extents[body.instance] =
+            sphere_around(box_of(body.vertices), static_cast<std::ptrdiff_t>(k));
     }
     return extents;
 }

@@ -40,11 +40,7 @@ std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
 
 AppliedMapRule rule_of(const AppliedMapConfig& map, const std::string& section,
                        const Scene& scene) {
-    return {.file = map.file,
-            .pixel_m = map.pixel_m,
-            .origin_m = map.origin_m,
-            .section = section,
-            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
+    return {map, section, {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
 }
 
 /// The indices of the map's materials in the scene. Adds the materials that the scene lacks.

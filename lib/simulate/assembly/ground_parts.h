@@ -32,9 +32,6 @@ Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes);
 /// The part of a heightmap over a box of the world.
 PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed);
 
-/// The rule of a mission's seabed, without the window that is made.
-SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed);
-
 /// The placed seabed of a mission, made above `needed`, world x and y. `announce` gets a sentence
 /// before a large one is made; it may be null.
 PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,

@@ -38,9 +38,7 @@ Trajectory form_of(const WaypointTrajectoryConfig& config) {
 }
 
 Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
-    return lawnmower({Eigen::Vector2d(config.area_min_m.data()),
-                      Eigen::Vector2d(config.area_max_m.data()), config.z_m, config.heading_deg,
-                      config.line_spacing_m, config.speed_m_s, config.rate_hz, config.turns});
+    return lawnmower(config);
 }
 
 /// The times alone: the poses are drawn when the scene is placed.
@@ -49,13 +47,6 @@ Trajectory form_of(const LookAtTrajectoryConfig& config) {
     for (std::size_t i = 0; i < poses.size(); ++i)
         poses[i].t_s = static_cast<double>(i);
     return poses;
-}
-
-WaveMotion wave_motion(const MotionConfig& config) {
-    WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        motion.turn_rad[axis] = radians(config.turn_deg[axis]);
-    return motion;
 }
 
 PhiloxKey vehicle_key(const Mission& mission, const char* name) {
@@ -177,20 +168,15 @@ Trajectory moved_vehicle(const Mission& mission, Trajectory poses) {
             (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
                 .normalized();
     }
-    add_wave_motion(wave_motion(mission.vehicle.motion), vehicle_key(mission, "wave motion"),
-                    poses);
+    add_wave_motion(mission.vehicle.motion, vehicle_key(mission, "wave motion"), poses);
     require_readable(poses);
     return poses;
 }
 
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth) {
     const NavigationConfig& config = mission.vehicle.navigation;
-    const NavigationErrors errors{.position_m = config.position_m,
-                                  .depth_m = config.depth_m,
-                                  .tilt_rad = radians(config.tilt_deg),
-                                  .heading_rad = radians(config.heading_deg)};
-    if (!errors.is_on()) return {};
-    return reported_poses(truth, errors, vehicle_key(mission, "navigation"));
+    if (config == NavigationConfig{}) return {};
+    return reported_poses(truth, config, vehicle_key(mission, "navigation"));
 }
 
 void add_ping_motions(const Mission& mission, const Trajectory& trajectory,

@@ -171,28 +171,6 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
                          number_text(end_s) + " s; let its trajectory last as long");
 }
 
-ScatterRule rule_of(const ScatterConfig& config) {
-    const auto in_rad = [](const std::array<double, 2>& deg) {
-        return std::array{radians(deg[0]), radians(deg[1])};
-    };
-    return {.name = printable(config.name),
-            .shapes = {},
-            .count = config.count,
-            .area = config.area_min_m
-                        ? Eigen::AlignedBox2d(Eigen::Vector2d(config.area_min_m->data()),
-                                              Eigen::Vector2d(config.area_max_m->data()))
-                        : Eigen::AlignedBox2d(),
-            .rpy_rad = {in_rad(config.roll_deg), in_rad(config.pitch_deg), in_rad(config.yaw_deg)},
-            .scale = config.scale,
-            .bury = config.bury,
-            .bury_m = config.bury_m,
-            .spacing_m = config.spacing_m,
-            .overlap = config.overlap,
-            .align = config.align,
-            .tries = 1000,
-            .place = config.place};
-}
-
 /// An object that is turned by more than this is not expected to stand upright in its file.
 constexpr double max_tilt_deg = 45.0;
 
@@ -209,19 +187,20 @@ bool is_upright(const ObjectConfig& object) {
 
 /// Scatters objects. The error of objects without room says where the bottom lies, and asks for
 /// the units.
-std::vector<ScatteredObject> scattered(const ScatterConfig& config, const ScatterRule& rule,
-                                       std::uint32_t index, std::uint64_t seed, LazyBottom& bottom,
-                                       double range_m, TakenGround& taken) {
+std::vector<ScatteredObject> scattered(const ScatterConfig& config,
+                                       std::span<const Surface* const> shapes, std::uint32_t index,
+                                       std::uint64_t seed, LazyBottom& bottom, double range_m,
+                                       TakenGround& taken) {
     const Bottom& ground = bottom.get();
     try {
-        return scatter(rule, index, seed, ground, taken);
+        return scatter(config, shapes, index, seed, ground, taken);
     } catch (const InputError& error) {
         double length_m = 0.0;
-        for (const Surface* shape : rule.shapes)
+        for (const Surface* shape : shapes)
             length_m = std::max(length_m, config.scale[1] * box_of(*shape).sizes().maxCoeff());
-        throw InputError(
-            error.what() + ("; the bottom lies" + bottom.reach()) +
-            bottom.unit_questions("'" + rule.name + "'", length_m, config.mesh, range_m));
+        throw InputError(error.what() + ("; the bottom lies" + bottom.reach()) +
+                         bottom.unit_questions("'" + printable(config.name) + "'", length_m,
+                                               config.mesh, range_m));
     }
 }
 
@@ -229,24 +208,24 @@ std::vector<ScatteredObject> scattered(const ScatterConfig& config, const Scatte
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
                    double range_m, Shapes& shapes, LazyBottom& bottom, TakenGround& taken,
                    SceneParts& parts) {
-    ScatterRule rule = rule_of(config);
     std::vector<PlacedFile> kinds;
+    std::vector<const Surface*> surfaces;
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
         kinds.back().class_name = config.class_of(kinds.size() - 1);
-        rule.shapes.push_back(&shapes.of(kinds.back(), config.mesh));
-        if (!rule.shapes.back()->triangles.empty()) continue;
+        surfaces.push_back(&shapes.of(kinds.back(), config.mesh));
+        if (!surfaces.back()->triangles.empty()) continue;
         throw InputError(config.place, path.string() + " has no surface to scatter");
     }
     const bool upright =
         std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
                   std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
-        add_orientation_warning(up_question(kinds[i], *rule.shapes[i]), parts);
+        add_orientation_warning(up_question(kinds[i], *surfaces[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
     std::size_t number = 0;
     for (const ScatteredObject& object :
-         scattered(config, rule, index, seed, bottom, range_m, taken)) {
+         scattered(config, surfaces, index, seed, bottom, range_m, taken)) {
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;

@@ -2,6 +2,7 @@
 #include "input/scene/placing/bottom.h"
 #include "input/scene/seabed/bed_model.h"
 #include "input/scene/seabed/seabed.h"
+#include "support/seabed.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -9,8 +10,8 @@ using sonarsim::test::ks_p_value;
 
 namespace {
 
-SeabedRule bare_rule(double half_m) {
-    SeabedRule rule;
+test::SeabedRule bare_rule(double half_m) {
+    test::SeabedRule rule;
     rule.cell_m = 0.25;
     rule.seed = 21;
     rule.window = {-half_m, -half_m, half_m, half_m};
@@ -26,8 +27,8 @@ double area_of_heights(const Seabed& bed) {
 }  // namespace
 
 TEST_CASE("rocks are a Poisson process with sizes of a power law") {
-    SeabedRule rule = bare_rule(30.0);
-    rule.rocks = BedRocks{0.7, {0.1, 2.0}, 2.4, {0.1, 0.5}};
+    test::SeabedRule rule = bare_rule(30.0);
+    rule.rocks = BedRockConfig{0.7, {0.1, 2.0}, 2.4, {0.1, 0.5}};
     const Seabed bed = make_seabed(rule);
     const double expected = 0.7 * area_of_heights(bed);
     CHECK(std::abs(static_cast<double>(bed.rocks.size()) - expected) < 4.0 * std::sqrt(expected));
@@ -65,10 +66,10 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
 }
 
 TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of their diameter") {
-    SeabedRule rule = bare_rule(20.0);
+    test::SeabedRule rule = bare_rule(20.0);
     rule.z_m = -5.0;
-    rule.ripples = BedRipples{0.3, 2.0, 0.4};
-    rule.rocks = BedRocks{0.3, {0.05, 4.0}, 1.0, {0.25, 0.25}};
+    rule.ripples = BedRippleConfig{0.3, 2.0, 23.0};
+    rule.rocks = BedRockConfig{0.3, {0.05, 4.0}, 1.0, {0.25, 0.25}};
     const Seabed bed = make_seabed(rule);
     REQUIRE(bed.rocks.size() > 100);
     PlacedFile placed_bed{.file = "scene.seabed", .z_up = true};
@@ -96,7 +97,7 @@ TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of t
 }
 
 TEST_CASE("sediments cover their shares, in patches of all sizes") {
-    SeabedRule rule = bare_rule(30.0);
+    test::SeabedRule rule = bare_rule(30.0);
     rule.cell_m = 0.125;
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}, {"gravel", 1.0}};
     rule.patch_m = 2.0;
@@ -153,8 +154,8 @@ TEST_CASE("sediments cover their shares, in patches of all sizes") {
 }
 
 TEST_CASE("sediments border where their field crosses a limit, and leave the bed's shape") {
-    SeabedRule rule = bare_rule(12.0);
-    rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
+    test::SeabedRule rule = bare_rule(12.0);
+    rule.roughness = BedRoughnessConfig{0.003, 3.25, 2.0};
     rule.patch_m = 5.0;
     const Seabed plain = make_seabed(rule);
     rule.sediments = {{"mud", 4.0}, {"silt", 1.0}, {"sand", 3.0}, {"gravel", 4.0}};
@@ -251,12 +252,12 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
 }
 
 TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes another") {
-    SeabedRule rule = bare_rule(12.0);
+    test::SeabedRule rule = bare_rule(12.0);
     rule.z_m = -20.0;
-    rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
-    rule.ripples = BedRipples{0.03, 1.0, 0.5};
+    rule.roughness = BedRoughnessConfig{0.003, 3.25, 2.0};
+    rule.ripples = BedRippleConfig{0.03, 1.0, 29.0};
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
-    rule.rocks = BedRocks{1.0, {0.1, 2.0}, 2.4, {0.1, 0.5}};
+    rule.rocks = BedRockConfig{1.0, {0.1, 2.0}, 2.4, {0.1, 0.5}};
     const Seabed whole = make_seabed(rule);
     CHECK(make_seabed(rule).heights == whole.heights);
     rule.window = {-3.03, 1.2, 4.0, 5.0};

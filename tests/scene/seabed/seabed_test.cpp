@@ -2,6 +2,7 @@
 
 #include "input/scene/gltf/load.h"
 #include "input/scene/seabed/relief.h"
+#include "support/seabed.h"
 #include "support/test.h"
 
 using namespace sonarsim;
@@ -38,8 +39,8 @@ double spectrum_at(const Seabed& bed, double kx, double ky) {
     return std::norm(sum) * cell * cell / (4.0 * pi * pi * weight_x * weight_y);
 }
 
-SeabedRule rule_of_size(double half_m, double cell_m = 0.05) {
-    SeabedRule rule;
+test::SeabedRule rule_of_size(double half_m, double cell_m = 0.05) {
+    test::SeabedRule rule;
     rule.cell_m = cell_m;
     rule.window = {-half_m, -half_m, half_m, half_m};
     return rule;
@@ -58,8 +59,8 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
     constexpr int wavelengths = 6;
     constexpr int directions = 8;
     using Values = Eigen::Array<double, wavelengths, 1>;
-    SeabedRule rule = rule_of_size(4.0);
-    rule.roughness = BedRoughness{roughness_strength(0.004, 3.0), 3.0, 2.0};
+    test::SeabedRule rule = rule_of_size(4.0);
+    rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
     Values ratios = Values::Zero();
     Values logs;
     const double corner = 2.0 * pi / rule.roughness->corner_m;
@@ -69,7 +70,7 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
         for (int n = 0; n < wavelengths; ++n) {
             const double k = 2.0 * pi / std::pow(0.2, n / (wavelengths - 1.0));
             const double expected =
-                rule.roughness->strength * std::pow(k * k + corner * corner, -1.5);
+                roughness_strength(0.004, 3.0) * std::pow(k * k + corner * corner, -1.5);
             for (int d = 0; d < directions; ++d) {
                 const double angle = pi * (d + 0.3) / directions;
                 const double found = spectrum_at(bed, k * std::cos(angle), k * std::sin(angle));
@@ -92,9 +93,9 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
 
 TEST_CASE("ripples have their length, direction and height" * doctest::skip(test::sanitized)) {
     for (const double angle : {0.4, 2.0}) {
-        SeabedRule rule = rule_of_size(6.0);
+        test::SeabedRule rule = rule_of_size(6.0);
         rule.seed = 3;
-        rule.ripples = BedRipples{0.03, 0.25, angle};
+        rule.ripples = BedRippleConfig{0.03, 0.25, degrees(angle)};
         const Seabed bed = make_seabed(rule);
         const double k = 2.0 * pi / 0.25;
         double power = 0.0;
@@ -122,7 +123,7 @@ TEST_CASE("ripples have their length, direction and height" * doctest::skip(test
 }
 
 TEST_CASE("a bed of a size ends there") {
-    SeabedRule rule = rule_of_size(100.0, 0.5);
+    test::SeabedRule rule = rule_of_size(100.0, 0.5);
     rule.size_m = {8.0, 5.0};
     rule.z_m = -7.0;
     PlacedFile placed;

@@ -22,9 +22,9 @@ constexpr std::size_t max_texels = std::size_t{1} << 24;
 /// nothing: they have no value, or are transparent.
 template <class Use>
 TexelFrame for_each_texel(const AppliedMapRule& rule, const Image& image, const Use& use) {
-    const Location where{rule.file.string()};
-    const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
-    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.section, where);
+    const Location where{rule.map.file.string()};
+    const Eigen::Vector2d origin(rule.map.origin_m[0], rule.map.origin_m[1]);
+    const PixelGrid grid = grid_in_metres(image, rule.map.pixel_m, rule.section, where);
     const PixelWindow window =
         pixels_within(image, grid, {rule.needed_m.min() + origin, rule.needed_m.max() + origin},
                       max_texels, where);
@@ -58,7 +58,7 @@ std::optional<double> parse_colour(const std::string& text) {
 MaterialTexels read_material_map(
     const AppliedMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials) {
-    const Location where{rule.file.string()};
+    const Location where{rule.map.file.string()};
     const bool colours = image.colours() == 3;
     if (image.colours() > 3)
         throw InputError(where, "has " + std::to_string(image.channels) +
@@ -101,7 +101,7 @@ MaterialTexels read_material_map(
 }
 
 StrengthTexels read_strength_map(const AppliedMapRule& rule, const Image& image) {
-    const Location where{rule.file.string()};
+    const Location where{rule.map.file.string()};
     if (image.colours() > 1)
         throw InputError(where, "has " + std::to_string(image.channels) +
                                     " channels, and a map of decibels has one: take one out, as "

@@ -1,25 +1,22 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "input/mission/seabed_keys.h"
 #include "input/scene/images/image_place.h"
 #include "input/scene/maps/ground_maps.h"
 
 namespace sonarsim {
 
-/// The place of a map's image.
+/// A map, and where it applies.
 struct AppliedMapRule {
-    std::filesystem::path file = {};
-    double pixel_m = 0.0;               ///< size of a pixel; 0: by the file
-    std::array<double, 2> origin_m{};   ///< point of the map that is the world's (0, 0)
-    std::string section = {};           ///< section of the mission, for messages
-    Eigen::AlignedBox2d needed_m = {};  ///< the part that is kept, world x and y
+    const AppliedMapConfig& map;
+    std::string section;           ///< section of the mission, for messages
+    Eigen::AlignedBox2d needed_m;  ///< the part that is kept, world x and y
 };
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.

@@ -5,6 +5,8 @@
 
 #include "core/pose.h"
 #include "core/random.h"
+#include "core/text.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -50,11 +52,23 @@ class Draws {
     PhiloxKey key_;
 };
 
-std::size_t count_of(const ScatterRule& rule, std::uint64_t seed, std::uint32_t rule_index) {
+std::size_t count_of(const ScatterConfig& rule, std::uint64_t seed, std::uint32_t rule_index) {
     constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
     const auto fewest = static_cast<std::size_t>(rule.count[0]);
     const auto most = static_cast<std::size_t>(rule.count[1]);
     return fewest + Draws(seed, rule_index, rule_count_key).one_of(most - fewest + 1, Draw::count);
+}
+
+constexpr int max_tries = 1000;  // positions for each object
+
+std::array<double, 2> in_radians(const std::array<double, 2>& deg) {
+    return {radians(deg[0]), radians(deg[1])};
+}
+
+/// The area of a rule; that of the bottom if it has none.
+Eigen::AlignedBox2d area_of(const ScatterConfig& rule, const Bottom& bottom) {
+    if (!rule.area_min_m) return bottom.area();
+    return {Eigen::Vector2d(rule.area_min_m->data()), Eigen::Vector2d(rule.area_max_m->data())};
 }
 
 /// Number of refused positions by reason.
@@ -64,16 +78,16 @@ struct Refusals {
     int no_bottom = 0;
 };
 
-[[noreturn]] void give_up(const ScatterRule& rule, std::size_t object, std::size_t count,
+[[noreturn]] void give_up(const ScatterConfig& rule, std::size_t object, std::size_t count,
                           const Refusals& refusals) {
-    throw InputError(
-        rule.place, "'" + rule.name + "': object " + std::to_string(object + 1) + " of " +
-                        std::to_string(count) + " finds no room in " + std::to_string(rule.tries) +
-                        " tries: " + std::to_string(refusals.outside) + " reach out of the area, " +
-                        std::to_string(refusals.taken) + " come too near to other objects, " +
-                        std::to_string(refusals.no_bottom) +
-                        " have no bottom below; take a larger area, fewer or smaller objects or "
-                        "less spacing_m");
+    throw InputError(rule.place,
+                     "'" + printable(rule.name) + "': object " + std::to_string(object + 1) +
+                         " of " + std::to_string(count) + " finds no room in " +
+                         std::to_string(max_tries) + " tries: " + std::to_string(refusals.outside) +
+                         " reach out of the area, " + std::to_string(refusals.taken) +
+                         " come too near to other objects, " + std::to_string(refusals.no_bottom) +
+                         " have no bottom below; take a larger area, fewer or smaller objects or "
+                         "less spacing_m");
 }
 
 Hull shifted(Hull hull, const Eigen::Vector2d& by) {
@@ -84,7 +98,7 @@ Hull shifted(Hull hull, const Eigen::Vector2d& by) {
 
 /// One object whose positions are tried one after the other.
 struct Attempt {
-    const ScatterRule& rule;
+    const ScatterConfig& rule;
     Eigen::AlignedBox2d area;
     const Bottom& bottom;
     const TakenGround& taken;
@@ -102,7 +116,7 @@ struct Placed {
 /// Returns the object's transform and ground if there is room for it.
 std::optional<Placed> try_at(const Eigen::Vector2d& position, std::size_t chosen,
                              const Attempt& attempt, Refusals& refusals) {
-    const ScatterRule& rule = attempt.rule;
+    const ScatterConfig& rule = attempt.rule;
     const auto fits = [&](const Hull& room) {
         const bool inside = std::ranges::all_of(
             room, [&](const Eigen::Vector2d& p) { return attempt.area.contains(p); });
@@ -130,14 +144,14 @@ std::optional<Placed> try_at(const Eigen::Vector2d& position, std::size_t chosen
 
 /// The `number`-th of `count` objects of a rule at the first position with room. `redraw` counts
 /// the draws of scale and burial. Returns nullopt if it lies wholly below the bottom.
-std::optional<Placed> place_one(const ScatterRule& rule, const Draws& draws, std::uint32_t redraw,
-                                const Bottom& bottom, const TakenGround& taken, std::size_t number,
-                                std::size_t count) {
-    const std::size_t chosen = draws.one_of(rule.shapes.size(), Draw::shape);
-    const Surface& shape = *rule.shapes[chosen];
-    Stance stance{.rotation = rotation_from_rpy(draws.in(rule.rpy_rad[0], Draw::roll),
-                                                draws.in(rule.rpy_rad[1], Draw::pitch),
-                                                draws.in(rule.rpy_rad[2], Draw::yaw)),
+std::optional<Placed> place_one(const ScatterConfig& rule, std::span<const Surface* const> shapes,
+                                const Draws& draws, std::uint32_t redraw, const Bottom& bottom,
+                                const TakenGround& taken, std::size_t number, std::size_t count) {
+    const std::size_t chosen = draws.one_of(shapes.size(), Draw::shape);
+    const Surface& shape = *shapes[chosen];
+    Stance stance{.rotation = rotation_from_rpy(draws.in(in_radians(rule.roll_deg), Draw::roll),
+                                                draws.in(in_radians(rule.pitch_deg), Draw::pitch),
+                                                draws.in(in_radians(rule.yaw_deg), Draw::yaw)),
                   .scale = draws.in(rule.scale, Draw::scale, redraw),
                   .align = rule.align,
                   .bury_m = draws.in(rule.bury_m, Draw::bury, redraw)};
@@ -146,15 +160,13 @@ std::optional<Placed> place_one(const ScatterRule& rule, const Draws& draws, std
     const Surface turned = moved(shape, upright);
     stance.bury_m += draws.in(rule.bury, Draw::share, redraw) * box_of(turned).sizes().z();
     const Hull outline = hull_of(turned.vertices);
-    const Attempt attempt{
-        rule,   rule.area.isEmpty() ? bottom.area() : rule.area, bottom, taken, shape, stance,
-        outline};
+    const Attempt attempt{rule, area_of(rule, bottom), bottom, taken, shape, stance, outline};
     const Eigen::Vector2d low = attempt.area.min();
     const Eigen::Vector2d high = attempt.area.max();
 
     Refusals refusals;
     std::optional<Placed> found;
-    for (int i = 0; i < rule.tries && !found; ++i) {
+    for (int i = 0; i < max_tries && !found; ++i) {
         const auto n = static_cast<std::uint32_t>(i);
         const Eigen::Vector2d position(draws.in({low.x(), high.x()}, Draw::x, n),
                                        draws.in({low.y(), high.y()}, Draw::y, n));
@@ -221,8 +233,10 @@ std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface
     return T_world_shape;
 }
 
-std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
-                                     std::uint64_t seed, const Bottom& bottom, TakenGround& taken) {
+std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
+                                     std::span<const Surface* const> shapes,
+                                     std::uint32_t rule_index, std::uint64_t seed,
+                                     const Bottom& bottom, TakenGround& taken) {
     constexpr std::uint32_t most_redraws = 100;
     const std::size_t count = count_of(rule, seed, rule_index);
     std::vector<ScatteredObject> objects;
@@ -230,12 +244,12 @@ std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule
         const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
         std::optional<Placed> placed;
         for (std::uint32_t redraw = 0; redraw < most_redraws && !placed; ++redraw)
-            placed = place_one(rule, draws, redraw, bottom, taken, i, count);
+            placed = place_one(rule, shapes, draws, redraw, bottom, taken, i, count);
         if (!placed) {
-            throw InputError(rule.place, "'" + rule.name + "': object " + std::to_string(i + 1) +
-                                             " lies wholly below the bottom in all of " +
-                                             std::to_string(most_redraws) +
-                                             " draws; lower bury or bury_m");
+            throw InputError(rule.place,
+                             "'" + printable(rule.name) + "': object " + std::to_string(i + 1) +
+                                 " lies wholly below the bottom in all of " +
+                                 std::to_string(most_redraws) + " draws; lower bury or bury_m");
         }
         if (!rule.overlap) taken.add(std::move(placed->ground));
         objects.push_back(placed->object);

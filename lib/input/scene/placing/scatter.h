@@ -5,33 +5,18 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "input/mission/scene_keys.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/placing/rest.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {
-
-/// Objects placed on the bottom at random. Pairs are ranges of uniform draws.
-struct ScatterRule {
-    std::string name;
-    std::vector<const Surface*> shapes;  ///< in their own frames, equally likely
-    std::array<double, 2> count{};       ///< whole numbers, both ends included
-    Eigen::AlignedBox2d area;  ///< every object lies within it entirely; empty: the bottom
-    std::array<std::array<double, 2>, 3> rpy_rad{};
-    std::array<double, 2> scale{1.0, 1.0};
-    std::array<double, 2> bury{};  ///< share of the height
-    std::array<double, 2> bury_m{};
-    double spacing_m = 0.0;
-    bool overlap = false;  ///< takes no notice of the ground that others cover
-    bool align = false;
-    int tries = 1;   ///< positions tried for each object
-    Location place;  ///< in the mission, for messages
-};
 
 /// The ground that objects cover, seen from above. A hull is compared only with those near it, so
 /// that the time to scatter objects grows with their number and not with its square.
@@ -71,12 +56,15 @@ struct Stance {
 std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface& shape,
                                              const Eigen::Vector2d& position, const Stance& stance);
 
-/// Draws the objects of a rule, the `rule_index`-th of the mission, and adds their hulls to
-/// `taken`. No hull comes nearer to another than the spacing. The properties of an object are drawn
-/// once, its position up to `tries` times; scale and burial are drawn again for an object that lies
-/// wholly below the bottom. Every draw depends on the seed, the rule and the object, not on earlier
-/// draws. InputError at the rule's place if an object finds no room or always lies below.
-std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
-                                     std::uint64_t seed, const Bottom& bottom, TakenGround& taken);
+/// Draws the objects of a rule, the `rule_index`-th of the mission, with shapes of its files in
+/// their own frames, and adds their hulls to `taken`. No hull comes nearer to another than the
+/// spacing. The properties of an object are drawn once, its position up to a thousand times; scale
+/// and burial are drawn again for an object that lies wholly below the bottom. Every draw depends
+/// on the seed, the rule and the object, not on earlier draws. InputError at the rule's place if an
+/// object finds no room or always lies below.
+std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
+                                     std::span<const Surface* const> shapes,
+                                     std::uint32_t rule_index, std::uint64_t seed,
+                                     const Bottom& bottom, TakenGround& taken);
 
 }  // namespace sonarsim

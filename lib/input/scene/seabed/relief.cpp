@@ -13,8 +13,8 @@ namespace {
 
 /// Real or imaginary part of the field that moves the crests. Its wave vectors have the standard
 /// deviation `ripple_spread` times the ripples' wave number.
-std::vector<float> crest_field(const BedGrid& grid, const BedRipples& ripples, std::uint32_t part,
-                               std::uint64_t seed) {
+std::vector<float> crest_field(const BedGrid& grid, const BedRippleConfig& ripples,
+                               std::uint32_t part, std::uint64_t seed) {
     // exp(-(length k)^2) has the deviation 1 / (sqrt(2) length).
     const double deviation = ripple_spread * 2.0 * pi / ripples.length_m;
     return smooth_field(grid, 1.0 / (std::sqrt(2.0) * deviation),
@@ -99,12 +99,12 @@ class Lattice {
 
 }  // namespace
 
-void add_ripples(const BedGrid& grid, const BedRipples& ripples, std::uint64_t seed,
+void add_ripples(const BedGrid& grid, const BedRippleConfig& ripples, std::uint64_t seed,
                  std::vector<double>& heights) {
     if (ripples.height_m == 0.0) return;
     const std::vector<float> real = crest_field(grid, ripples, 0, seed);
     const std::vector<float> imaginary = crest_field(grid, ripples, 1, seed);
-    const SinCos direction = sincos(ripples.direction_rad);
+    const SinCos direction = sincos(radians(ripples.direction_deg));
     // Added to |b|^2, whose mean is 2, so that a crest ends and its height falls to 0 where b is 0.
     constexpr double rounding = 0.05;
     std::size_t i = 0;
@@ -129,9 +129,11 @@ double roughness_strength(double spectral_strength_cm4, double exponent) {
     return spectral_strength_cm4 * power(m_per_cm, 4.0 - exponent);
 }
 
-void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint64_t seed,
+void add_roughness(const BedGrid& grid, const BedRoughnessConfig& roughness, std::uint64_t seed,
                    std::vector<double>& heights) {
-    if (roughness.strength == 0.0) return;
+    const double exponent = roughness.spectral_exponent;
+    const double strength = roughness_strength(roughness.spectral_strength_cm4, exponent);
+    if (strength == 0.0) return;
     // The square of the shortest length of a field, in cells. Shorter fields would be aliased by
     // the grid; longer ones leave out more of the spectrum at short wavelengths.
     constexpr double min_t = 0.2;
@@ -139,8 +141,8 @@ void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint
     // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.
     constexpr double most = 10.0;
     const double corner = 2.0 * pi / roughness.corner_m;
-    const double a = 0.5 * roughness.exponent;
-    const double factor = roughness.strength * pi * logarithm(step) * exponential(-log_gamma(a));
+    const double a = 0.5 * exponent;
+    const double factor = strength * pi * logarithm(step) * exponential(-log_gamma(a));
     double t = min_t * grid.cell_m * grid.cell_m;
     for (std::uint32_t octave = 0; t * corner * corner < most; ++octave, t *= step) {
         const double variance = factor * power(t, a - 1.0) * exponential(-t * corner * corner);

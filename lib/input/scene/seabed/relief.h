@@ -4,16 +4,10 @@
 #include <vector>
 
 #include "core/random.h"
+#include "input/mission/seabed_keys.h"
 #include "input/scene/seabed/bed_grid.h"
 
 namespace sonarsim {
-
-/// A train of ripples.
-struct BedRipples {
-    double height_m = 0.0;       ///< from trough to crest
-    double length_m = 1.0;       ///< from crest to crest
-    double direction_rad = 0.0;  ///< across the crests, from x towards y
-};
 
 /// The deviation of the wave vector along each axis, as a share of its length. It has no source.
 inline constexpr double ripple_spread = 0.05;
@@ -21,29 +15,22 @@ inline constexpr double ripple_spread = 0.05;
 /// Adds ripples, in metres. Their height is that of a cosine, height_m / 2 Re(exp(i k x) b / |b|),
 /// where the complex Gaussian field b moves the crests. At the zeros of b, of which a square metre
 /// has 2 pi (ripple_spread / length_m)^2, a crest ends and the height falls to 0.
-void add_ripples(const BedGrid& grid, const BedRipples& ripples, std::uint64_t seed,
+void add_ripples(const BedGrid& grid, const BedRippleConfig& ripples, std::uint64_t seed,
                  std::vector<double>& heights);
 
-/// An isotropic spectrum of heights, W(k) = strength (k^2 + k0^2)^(-exponent / 2) with k in rad/m
-/// and k0 = 2 pi / corner_m. Its integral over all wave vectors is the variance, m^2.
-struct BedRoughness {
-    double strength = 0.0;  ///< m^(4 - exponent)
-    double exponent = 3.25;
-    double corner_m = 2.0;
-};
-
 /// Converts a spectral strength from cm^4, the unit of the literature (lengths in cm, k in rad/cm),
-/// to the unit above.
+/// to m^(4 - exponent), for lengths in m and k in rad/m.
 double roughness_strength(double spectral_strength_cm4, double exponent);
 
-/// Adds random heights with this spectrum, in metres. The spectrum holds within 0.6 dB from the
+/// Adds random heights with an isotropic spectrum W(k) = strength (k^2 + k0^2)^(-exponent / 2), in
+/// metres, with k0 = 2 pi / corner_m. The spectrum holds within 0.6 dB from the
 /// corner down to wavelengths of 4 cells, and is 1 to 3 dB lower at 2 cells, the shortest that
 /// the grid holds.
 ///
 /// (k^2 + k0^2)^-a is the integral of t^(a-1) exp(-t (k^2 + k0^2)) dt / Gamma(a), a mixture of the
 /// spectra of smooth fields. The sum over t in steps of a factor 4, one field for each octave of
 /// lengths, equals this integral within 4 %.
-void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint64_t seed,
+void add_roughness(const BedGrid& grid, const BedRoughnessConfig& roughness, std::uint64_t seed,
                    std::vector<double>& heights);
 
 /// A Gaussian random field on the cells of a grid, in its order: mean 0, variance 1, correlation

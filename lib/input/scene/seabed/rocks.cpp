@@ -167,7 +167,7 @@ std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2,
 }
 
 /// The diameter that a share u of the rocks is smaller than.
-double diameter_at(double u, const BedRocks& rocks) {
+double diameter_at(double u, const BedRockConfig& rocks) {
     const auto [least, most] = rocks.diameter_m;
     if (least == most) return least;
     // N(>D) = D^-q between the limits: D^-q is uniform.
@@ -192,7 +192,7 @@ std::vector<Surface> rock_shapes(std::uint64_t seed) {
     return out;
 }
 
-std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double cell_m,
+std::vector<Rock> rocks_in(const BedArea& area, const BedRockConfig& rocks, double cell_m,
                            std::uint64_t seed) {
     const PhiloxKey key = bed_key(seed, BedDraw::rocks);
     std::vector<Rock> out;

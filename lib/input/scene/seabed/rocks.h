@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "input/mission/seabed_keys.h"
 #include "input/scene/seabed/bed_grid.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {
-
-/// Rocks that lie on a bed.
-struct BedRocks {
-    double density_per_m2 = 0.0;
-    std::array<double, 2> diameter_m{};
-    double exponent = 3.0;           ///< rocks above D are as frequent as D^-exponent
-    std::array<double, 2> buried{};  ///< share of a rock's height, uniform
-    std::string material = {};       ///< "": that of the bed
-};
 
 /// A rock, in the world.
 struct Rock {
@@ -36,7 +28,7 @@ std::vector<Surface> rock_shapes(std::uint64_t seed);
 /// the transform is 0. They are a Poisson process, drawn tile by tile of the endless plane, so that
 /// an area has the same rocks, in the same order, whatever else is made. Their diameters follow the
 /// power law between the two limits. Rocks that cover more cells have more triangles.
-std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double cell_m,
+std::vector<Rock> rocks_in(const BedArea& area, const BedRockConfig& rocks, double cell_m,
                            std::uint64_t seed);
 
 }  // namespace sonarsim

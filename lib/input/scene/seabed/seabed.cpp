@@ -51,22 +51,22 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
-void add_rocks(const SeabedRule& rule, Seabed& bed) {
+void add_rocks(const SeabedConfig& config, std::uint64_t seed, Seabed& bed) {
     constexpr double max_rocks = 50000.0;
     const BedGrid& grid = bed.grid;
     // Within the outer heights, where every point has a height.
     const BedArea area{grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1),
                        grid.y_m(0)};
-    const double count = (area[2] - area[0]) * (area[3] - area[1]) * rule.rocks->density_per_m2;
+    const double count = (area[2] - area[0]) * (area[3] - area[1]) * config.rocks->density_per_m2;
     if (count > max_rocks) {
-        throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs "
-                                                 "has some {:.0f} rocks, and at most {:.0f} have "
-                                                 "room; lower their density_per_m2",
-                                                 count, max_rocks));
+        throw InputError(config.place, fmt::format("the part of the seabed that the mission needs "
+                                                   "has some {:.0f} rocks, and at most {:.0f} have "
+                                                   "room; lower their density_per_m2",
+                                                   count, max_rocks));
     }
-    bed.rock_shapes = rock_shapes(rule.seed);
-    bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);
-    bed.rock_material = rule.rocks->material;
+    bed.rock_shapes = rock_shapes(seed);
+    bed.rocks = rocks_in(area, *config.rocks, config.cell_m, seed);
+    bed.rock_material = config.rocks->material;
     for (Rock& rock : bed.rocks) {
         auto at = rock.T_world_shape.translation();
         const Eigen::AlignedBox3d box = box_of(bed.rock_shapes[rock.shape]);
@@ -104,43 +104,43 @@ std::vector<std::string> materials_of(const Seabed& bed) {
     return names;
 }
 
-BedGrid grid_of(const SeabedRule& rule) {
-    const std::array<double, 2> size = rule.size_m.value_or(std::array{0.0, 0.0});
-    const BedArea& w = rule.window;
-    const auto x = cells_within(w[0], w[2], rule.cell_m, size[0]);
-    const auto y = cells_within(w[1], w[3], rule.cell_m, size[1]);
+BedGrid grid_of(const SeabedConfig& config, const BedArea& window) {
+    const std::array<double, 2> size = config.size_m.value_or(std::array{0.0, 0.0});
+    const auto x = cells_within(window[0], window[2], config.cell_m, size[0]);
+    const auto y = cells_within(window[1], window[3], config.cell_m, size[1]);
     const double columns = x[1] - x[0];
     const double rows = y[1] - y[0];
     if (columns < 2.0 || rows < 2.0) {
-        throw InputError(rule.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
+        throw InputError(config.place,
+                         "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
     }
     if (columns * rows > max_cells_of_bed) {
         throw InputError(
-            rule.place,
+            config.place,
             fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
                         "have room; raise cell_m, or shorten the trajectory or the ranges",
                         columns, rows));
     }
-    return {rule.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
+    return {config.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
             static_cast<int>(columns), static_cast<int>(rows)};
 }
 
-Seabed make_seabed(const SeabedRule& rule) {
+Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed, const BedArea& window) {
     Seabed bed;
-    bed.grid = grid_of(rule);
-    bed.class_name = rule.class_name;
-    std::vector<double> heights(bed.grid.size(), rule.z_m);
-    if (rule.ripples) add_ripples(bed.grid, *rule.ripples, rule.seed, heights);
-    if (rule.roughness) add_roughness(bed.grid, *rule.roughness, rule.seed, heights);
+    bed.grid = grid_of(config, window);
+    bed.class_name = config.class_name;
+    std::vector<double> heights(bed.grid.size(), config.z_m);
+    if (config.ripples) add_ripples(bed.grid, *config.ripples, seed, heights);
+    if (config.roughness) add_roughness(bed.grid, *config.roughness, seed, heights);
     bed.heights.reserve(heights.size());
     for (const double z : heights)
         bed.heights.push_back(static_cast<float>(z));
-    bed.materials = {rule.material};
-    if (!rule.sediments.empty()) bed.materials.clear();
-    for (const BedSediment& sediment : rule.sediments)
+    bed.materials = {config.material};
+    if (!config.sediments.empty()) bed.materials.clear();
+    for (const BedSedimentConfig& sediment : config.sediments)
         bed.materials.push_back(sediment.material);
-    bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.seed);
-    if (rule.rocks) add_rocks(rule, bed);
+    bed.sediments = sediments_of(bed.grid, config.sediments, config.patch_m, seed);
+    if (config.rocks) add_rocks(config, seed, bed);
     return bed;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "input/mission/seabed_keys.h"
 #include "input/scene/seabed/bed_grid.h"
 #include "input/scene/seabed/relief.h"
 #include "input/scene/seabed/rocks.h"
@@ -14,23 +14,6 @@
 #include "input/scene/surface.h"
 
 namespace sonarsim {
-
-/// The parameters of a generated sea bed, and the part of it to generate.
-struct SeabedRule {
-    std::uint64_t seed = 0;
-    double cell_m = 1.0;
-    std::optional<std::array<double, 2>> size_m = {};  ///< x, y from (0, 0); none: no end
-    BedArea window{};                                  ///< the part to generate
-    double z_m = 0.0;                                  ///< mean height
-    std::optional<BedRoughness> roughness = {};
-    std::optional<BedRipples> ripples = {};
-    std::vector<BedSediment> sediments = {};  ///< none: `material` everywhere
-    double patch_m = 10.0;
-    std::optional<BedRocks> rocks = {};
-    std::string material = {};  ///< "": none
-    std::string class_name = {};
-    Location place = {};  ///< in the mission, for messages
-};
 
 /// A bed, or a part of one.
 struct Seabed {
@@ -63,12 +46,12 @@ std::vector<BedMixture> mixtures_of(const Seabed& bed);
 /// The names of all materials that a bed names.
 std::vector<std::string> materials_of(const Seabed& bed);
 
-/// The heights of the part that a rule asks for. InputError as make_seabed().
-BedGrid grid_of(const SeabedRule& rule);
+/// The heights within `window`. InputError as make_seabed().
+BedGrid grid_of(const SeabedConfig& config, const BedArea& window);
 
-/// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
-/// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
-/// 2, or more than 50,000 rocks.
-Seabed make_seabed(const SeabedRule& rule);
+/// Makes the part of a bed within `window`. The same keys and seed make the same bed in every part,
+/// except for the numbers of the rocks. InputError at the section's place for a part with more than
+/// 2^25 heights, fewer than 2 x 2, or more than 50,000 rocks.
+Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed, const BedArea& window);
 
 }  // namespace sonarsim

@@ -29,8 +29,8 @@ double length_of_patches(double patch_m) {
 
 }  // namespace
 
-BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
-                          std::uint64_t seed) {
+BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSedimentConfig>& list,
+                          double patch_m, std::uint64_t seed) {
     BedSediments out{std::vector<std::uint8_t>(grid.size(), 0), {}, {}, 0.0F};
     if (list.size() < 2) return out;
     constexpr double fall = 0.5946035575013605;  // 0.5^0.75
@@ -53,10 +53,10 @@ BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& l
     const PhiloxKey key = bed_key(seed, BedDraw::sediments, 255);
     out.mixed = 0.3F + 1.9F * unit_float(philox({0, 0, 0, 0}, key).x0);
     double sum = 0.0;
-    for (const BedSediment& sediment : list)
+    for (const BedSedimentConfig& sediment : list)
         sum += sediment.share;
     double below = 0.0;
-    for (const BedSediment& sediment : list) {
+    for (const BedSedimentConfig& sediment : list) {
         below += sediment.share;
         out.limits.push_back(
             static_cast<float>(std::sqrt(variance) * normal_quantile(below / sum)));

@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "input/mission/seabed_keys.h"
 #include "input/scene/seabed/bed_grid.h"
 
 namespace sonarsim {
-
-/// A material and its share of the bed.
-struct BedSediment {
-    std::string material;
-    double share = 1.0;
-};
 
 /// The sediments of a grid, as indices into a list. A point has the index of as many limits as its
 /// value exceeds.
@@ -36,7 +31,7 @@ inline constexpr double longest_wave = 8.0;
 /// amplitudes fall as wavelength^0.75: then borders have the dimension 1.25, as the coast of
 /// Britain has it (Mandelbrot, Science 156 (1967), 636). Sediments mix over 0.1 to 0.6 `patch_m`,
 /// by the seed (rule).
-BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSediment>& list, double patch_m,
-                          std::uint64_t seed);
+BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSedimentConfig>& list,
+                          double patch_m, std::uint64_t seed);
 
 }  // namespace sonarsim
