@@ -19,8 +19,8 @@
 #include "input/mission/parse.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/ping_source.h"
+#include "simulate/assembly/mission_objects.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/possible_objects.h"
 #include "simulate/sonar/kinds.h"
 
 namespace py = pybind11;

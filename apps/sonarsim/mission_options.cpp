@@ -1,7 +1,7 @@
 #include "mission_options.h"
 
 #include "input/mission/parse.h"
-#include "simulate/assembly/possible_objects.h"
+#include "simulate/assembly/mission_objects.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

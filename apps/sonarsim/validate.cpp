@@ -28,7 +28,7 @@
 #include "run/job/ping_cost.h"
 #include "run/job/variants.h"
 #include "simulate/assembly/assemble.h"
-#include "simulate/assembly/background.h"
+#include "simulate/assembly/mission_objects.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/visibility/make_engine.h"
 #include "survey_report.h"

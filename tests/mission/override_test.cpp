@@ -1,5 +1,4 @@
-#include "input/mission/override.h"
-
+#include "input/mission/parse.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {

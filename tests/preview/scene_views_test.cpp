@@ -1,6 +1,5 @@
 #include "run/preview/scene_views.h"
 
-#include "run/preview/object_boxes.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/test.h"
 

@@ -8,9 +8,9 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "input/mission/key_visitor.h"
 #include "input/mission/sonar_keys.h"
 #include "input/mission/trajectory_keys.h"
+#include "input/mission/value_types.h"
 
 namespace sonarsim {
 

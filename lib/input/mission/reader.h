@@ -13,8 +13,8 @@
 
 #include "core/error.h"
 #include "input/mission/document.h"
-#include "input/mission/key_visitor.h"
 #include "input/mission/sonar_keys.h"
+#include "input/mission/value_types.h"
 
 namespace sonarsim {
 

@@ -12,7 +12,7 @@
 #include "core/hash.h"
 #include "input/mission/document.h"
 #include "input/mission/files.h"
-#include "input/mission/key_visitor.h"
+#include "input/mission/value_types.h"
 
 namespace sonarsim {
 

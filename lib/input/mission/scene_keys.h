@@ -20,6 +20,25 @@
 namespace sonarsim {
 
 enum class LengthUnit { m, mm, cm, km, inch, foot };
+
+struct LengthUnitRow {
+    double metres;
+    const char* plural;
+};
+
+/// Indexed by LengthUnit.
+inline constexpr std::array<LengthUnitRow, 6> length_unit_rows{{{1.0, "metres"},
+                                                                {1e-3, "millimetres"},
+                                                                {1e-2, "centimetres"},
+                                                                {1e3, "kilometres"},
+                                                                {0.0254, "inches"},
+                                                                {0.3048, "feet"}}};
+
+/// The length of a unit, m.
+constexpr double metres(LengthUnit unit) {
+    return length_unit_rows[static_cast<std::size_t>(unit)].metres;
+}
+
 enum class UpAxis : std::uint8_t { y, z };
 
 /// Options for reading a file of a mesh.
@@ -270,6 +289,14 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
              "share of the sound that the surface scatters away instead of reflecting it");
     v.flag("scatters", c.scatters,
            "the surface sends sound back to sonars of the calibrated model, by water.wind_m_s");
+}
+
+/// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
+inline std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
+    if (!scene.bottom.empty()) return scene.bottom;
+    if (scene.heightmap) return {heightmap_instance};
+    if (scene.seabed) return {seabed_instance};
+    return {};
 }
 
 /// True if an object has the name of an instance that the heightmap or seabed makes.

@@ -5,7 +5,7 @@
 
 #include "core/random.h"
 #include "core/text.h"
-#include "input/mission/override.h"
+#include "input/mission/parse.h"
 #include "input/mission/ping_draws.h"
 #include "input/mission/preset.h"
 #include "input/mission/resolved.h"

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "run/preview/drawing.h"
@@ -37,5 +39,21 @@ std::vector<float> heights_below(const VisibilityEngine& engine, const Eigen::Ve
 /// Draws a plan, north (y) up: the height of the highest surface below the vehicle, dark where
 /// there is none, the trajectory, the footprints of the sonars and the boxes and names of objects.
 Picture draw_plan(const Moment& moment, int width, int height);
+
+/// An object of the scene and the box around it, world.
+struct ObjectBox {
+    std::string name;
+    Eigen::AlignedBox3d box;
+};
+
+/// The objects at a pose of the trajectory, without those that are background. Nodes of the scene
+/// are the objects if the mission asks for no labels and has no classes.
+std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose);
+
+/// Draws the boxes in a plan of x and y, without those that fill most of it, and the names for
+/// which there is room, those of large objects first. Returns the boxes of the names in pixels,
+/// which do not overlap.
+std::vector<Eigen::AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
+                                              const std::vector<ObjectBox>& objects);
 
 }  // namespace sonarsim

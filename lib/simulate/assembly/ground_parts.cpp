@@ -54,13 +54,6 @@ Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sona
     return seen;
 }
 
-std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
-    if (!scene.bottom.empty()) return scene.bottom;
-    if (scene.heightmap) return {heightmap_instance};
-    if (scene.seabed) return {seabed_instance};
-    return {};
-}
-
 Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) {
     Eigen::AlignedBox2d ground;
     for (const ObjectConfig& object : scene.objects) {

@@ -23,9 +23,6 @@ namespace sonarsim {
 Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
                                     const Trajectory& vehicle, double faster);
 
-/// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
-std::vector<std::string> bottom_patterns(const SceneConfig& scene);
-
 /// A box around the ground that objects at rest may stand on; world x and y. Empty: there are none.
 Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes);
 

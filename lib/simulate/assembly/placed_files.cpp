@@ -8,24 +8,6 @@
 
 namespace sonarsim {
 
-double metres(LengthUnit unit) {
-    switch (unit) {
-        case LengthUnit::mm:
-            return 1e-3;
-        case LengthUnit::cm:
-            return 1e-2;
-        case LengthUnit::km:
-            return 1e3;
-        case LengthUnit::inch:
-            return 0.0254;
-        case LengthUnit::foot:
-            return 0.3048;
-        case LengthUnit::m:
-            break;
-    }
-    return 1.0;
-}
-
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
                    const Location& place) {
     return {.file = path,

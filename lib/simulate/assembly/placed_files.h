@@ -9,9 +9,6 @@
 
 namespace sonarsim {
 
-/// The length of a unit, m.
-double metres(LengthUnit unit);
-
 /// A file with the mission's options for reading it, not placed yet.
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
                    const Location& place);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "input/mission/scene_keys.h"
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/rest.h"
 
@@ -43,15 +44,9 @@ bool rests_upright(const Surface& surface, int axis) {
 }
 
 std::string reading_of(const PlacedFile& file) {
-    constexpr std::array<std::pair<double, const char*>, 6> units{{{1.0, "metres"},
-                                                                   {1e-3, "millimetres"},
-                                                                   {1e-2, "centimetres"},
-                                                                   {1e3, "kilometres"},
-                                                                   {0.0254, "inches"},
-                                                                   {0.3048, "feet"}}};
     const auto* const unit =
-        std::ranges::find(units, file.unit_m, &std::pair<double, const char*>::first);
-    return std::string(unit->second) + (file.z_up ? ", z up" : ", y up") +
+        std::ranges::find(length_unit_rows, file.unit_m, &LengthUnitRow::metres);
+    return std::string(unit->plural) + (file.z_up ? ", z up" : ", y up") +
            (file.up_given ? "" : " (no `up` given)");
 }
 
