@@ -23,18 +23,14 @@ struct PythonTool {
     const char* meaning;
 };
 
-constexpr std::array python_tools{
-    PythonTool{"Use", "export",
-               "Writes datasets in the layouts of trainers, robots and reconstruction"},
-    PythonTool{"Look", "gallery",
-               "Writes a page for a browser that shows a dataset and its labels"},
-    PythonTool{"Check", "compare",
-               "Compares the pings of two datasets or recordings by their statistics"},
-    PythonTool{"Use", "calibrate", "Fits a preset of the calibrated model to recorded pings"},
-    PythonTool{"Make", "import-holoocean",
-               "Writes a mission from the sonars and poses of a HoloOcean scenario"},
-    PythonTool{"Make", "import-poses",
-               "Writes the poses of a topic of an MCAP file as a trajectory"},
+constexpr PythonTool python_tools[] = {
+    {"Use", "export", "Writes datasets in the layouts of trainers, robots and reconstruction"},
+    {"Look", "gallery", "Writes a page for a browser that shows a dataset and its labels"},
+    {"Check", "compare", "Compares the pings of two datasets or recordings by their statistics"},
+    {"Use", "calibrate", "Fits a preset of the calibrated model to recorded pings"},
+    {"Make", "import-holoocean",
+     "Writes a mission from the sonars and poses of a HoloOcean scenario"},
+    {"Make", "import-poses", "Writes the poses of a topic of an MCAP file as a trajectory"},
 };
 
 // Debian's numpy belongs to this interpreter, which need not be the first in PATH.
@@ -68,7 +64,7 @@ void add_python_tools(CLI::App& app) {
 void become_python_tool(int argc, char** argv) {
     if (argc < 2) return;
     const std::string_view name = argv[1];
-    if (std::ranges::find(python_tools, name, &PythonTool::name) == python_tools.end()) return;
+    if (std::ranges::find(python_tools, name, &PythonTool::name) == std::end(python_tools)) return;
     std::string module = "sonarsim." + std::string(name);
     std::ranges::replace(module, '-', '_');
     std::string python = environment("SONARSIM_PYTHON", debian_python);

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include "core/file.h"
 #include "support/test.h"
 
 using namespace sonarsim;
@@ -12,7 +13,7 @@ TEST_SUITE("dataset") {
         const TemporaryFolder temporary;
         const auto path = temporary.path / "map.tif";
         const std::vector<float> values{1, 2, std::numeric_limits<float>::quiet_NaN(), 4, -5.5F, 6};
-        write_geotiff(path, values, 3, {.west_m = 5e5, .north_m = -2.5, .cell_m = 0.5});
+        write_file(path, geotiff_bytes(values, 3, {.west_m = 5e5, .north_m = -2.5, .cell_m = 0.5}));
         const auto in = OIIO::ImageInput::open(path.string());
         REQUIRE(in);
         CHECK(in->spec().width == 3);

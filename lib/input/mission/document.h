@@ -36,6 +36,11 @@ struct YamlNode {
     YamlNode* find(std::string_view wanted);
 };
 
+/// The item of a map, or nullptr if there is no node, no map or no such item.
+inline YamlNode* child(YamlNode* node, const char* key) {
+    return node != nullptr ? node->find(key) : nullptr;
+}
+
 /// Nodes of a file remember their lines, nodes of a command line do not.
 enum class Lines { counted, none };
 

@@ -39,11 +39,11 @@ void check_rules(const Mission& mission) {
         std::string_view key;
         const char* why;
     };
-    constexpr std::array reserved{
-        Reserved{"seed", "each variant has a seed of its own, which follows from the mission's"},
-        Reserved{"variants", "it says how many variants there are"},
-        Reserved{"vary", "it says what varies"},
-        Reserved{"output.folder", "each variant has a folder of its own in that of the mission"}};
+    constexpr Reserved reserved[] = {
+        {"seed", "each variant has a seed of its own, which follows from the mission's"},
+        {"variants", "it says how many variants there are"},
+        {"vary", "it says what varies"},
+        {"output.folder", "each variant has a folder of its own in that of the mission"}};
     ErrorList errors;
     for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
         const auto refuse = [&](const std::string& what) {
@@ -216,7 +216,7 @@ std::optional<double> number_at(const YamlNode& root, std::string_view path) {
             const std::optional<std::uint64_t> index = parse_unsigned(key);
             node = index && *index < node->items.size() ? &node->items[*index] : nullptr;
         } else {
-            node = node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
+            node = node->find(key);
         }
         if (node == nullptr) return std::nullopt;
     }

@@ -78,7 +78,6 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
 /// Fills in the keys of the file that the key `preset` of a section names, if there is one.
 void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder,
                      const std::string& kind) {
-    if (section.kind != YamlNode::Kind::map) return;
     const YamlNode* const name = section.find(preset_key);
     if (name == nullptr) return;
     const YamlNode preset = read_preset(*name, base_folder, kind);
@@ -98,8 +97,7 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
         });
     };
     for (const YamlNode& item : vary.items) {
-        const YamlNode* const name =
-            item.kind == YamlNode::Kind::map ? item.find(preset_key) : nullptr;
+        const YamlNode* const name = item.find(preset_key);
         if (name == nullptr) {
             rules.push_back(item);
             continue;
@@ -115,7 +113,7 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
         if (preset.kind != YamlNode::Kind::list)
             throw InputError(preset.place.location(), "a preset of 'vary' is a list of rules");
         for (YamlNode rule : preset.items) {
-            YamlNode* const key = rule.kind == YamlNode::Kind::map ? rule.find("key") : nullptr;
+            YamlNode* const key = rule.find("key");
             if (key == nullptr)
                 throw InputError(rule.place.location(), "a rule of 'vary' needs the key 'key'");
             if (sensor != nullptr) key->text = "sensors." + sensor->text + "." + key->text;
@@ -166,19 +164,16 @@ std::string shipped_hint(std::string name, const std::string& kind) {
 }
 
 void fill_in_rules(YamlNode& mission, const std::filesystem::path& base_folder) {
-    YamlNode* const vary = mission.kind == YamlNode::Kind::map ? mission.find("vary") : nullptr;
+    YamlNode* const vary = mission.find("vary");
     if (vary != nullptr && vary->kind == YamlNode::Kind::list)
         vary->items = rules_of(*vary, base_folder);
 }
 
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
-    const auto section_of = [](YamlNode* node, const char* key) -> YamlNode* {
-        return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
-    };
-    if (YamlNode* const seabed = section_of(section_of(&mission, "scene"), "seabed"))
+    if (YamlNode* const seabed = child(mission.find("scene"), "seabed"))
         fill_in_section(*seabed, base_folder, seabed_presets);
     fill_in_rules(mission, base_folder);
-    YamlNode* const sensors = section_of(&mission, "sensors");
+    YamlNode* const sensors = mission.find("sensors");
     if (sensors == nullptr || sensors->kind != YamlNode::Kind::map) return;
     for (YamlNode& sensor : sensors->items)
         fill_in_section(sensor, base_folder, sensor_presets);

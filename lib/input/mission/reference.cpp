@@ -19,11 +19,11 @@ namespace {
 std::string unit_of(std::string_view key) {
     using Unit = std::pair<std::string_view, const char*>;
     // Longer endings first: a speed ends in _m_s and a length in _m.
-    constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_db", "dB"},   Unit{"_rad", "rad"},
-                               Unit{"_c", "Celsius"},    Unit{"_psu", "psu"}, Unit{"_m_s", "m/s"},
-                               Unit{"_deg", "deg"},      Unit{"_hz", "Hz"},   Unit{"_mb", "MB"},
-                               Unit{"_px", "pixels"},    Unit{"_m", "m"},     Unit{"_s", "s"},
-                               Unit{"_w", "W"}};
+    constexpr Unit units[] = {{"_kg_m3", "kg/m^3"}, {"_db", "dB"},   {"_rad", "rad"},
+                              {"_c", "Celsius"},    {"_psu", "psu"}, {"_m_s", "m/s"},
+                              {"_deg", "deg"},      {"_hz", "Hz"},   {"_mb", "MB"},
+                              {"_px", "pixels"},    {"_m", "m"},     {"_s", "s"},
+                              {"_w", "W"}};
     for (const auto& [ending, unit] : units) {
         if (key.ends_with(ending)) return unit;
     }

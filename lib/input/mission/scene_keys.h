@@ -27,12 +27,9 @@ struct LengthUnitRow {
 };
 
 /// Indexed by LengthUnit.
-inline constexpr std::array<LengthUnitRow, 6> length_unit_rows{{{1.0, "metres"},
-                                                                {1e-3, "millimetres"},
-                                                                {1e-2, "centimetres"},
-                                                                {1e3, "kilometres"},
-                                                                {0.0254, "inches"},
-                                                                {0.3048, "feet"}}};
+inline constexpr LengthUnitRow length_unit_rows[] = {{1.0, "metres"},       {1e-3, "millimetres"},
+                                                     {1e-2, "centimetres"}, {1e3, "kilometres"},
+                                                     {0.0254, "inches"},    {0.3048, "feet"}};
 
 /// The length of a unit, m.
 constexpr double metres(LengthUnit unit) {

@@ -50,10 +50,6 @@ YamlNode list(const std::string& key, std::vector<YamlNode> items, const YamlPla
     return node;
 }
 
-YamlNode* child(YamlNode* node, const char* key) {
-    return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
-}
-
 /// The files of a kind of the stock, absolute.
 void add_files(const YamlNode& kind, const std::filesystem::path& base_folder,
                std::vector<YamlNode>& files) {

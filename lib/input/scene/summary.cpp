@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "input/scene/mesh_topology.h"
 
 namespace sonarsim {
 
@@ -22,13 +23,6 @@ struct Share {
         area_m2 += area;
     }
 };
-
-double area_of(const Scene& scene, const std::array<std::uint32_t, 3>& triangle) {
-    const Eigen::Vector3d a = scene.vertices[triangle[0]].cast<double>();
-    const Eigen::Vector3d b = scene.vertices[triangle[1]].cast<double>();
-    const Eigen::Vector3d c = scene.vertices[triangle[2]].cast<double>();
-    return 0.5 * (b - a).cross(c - a).norm();
-}
 
 std::string point(const Eigen::Vector3d& p) {
     return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x(), p.y(), p.z());
@@ -63,7 +57,7 @@ std::string describe_scene(const Scene& scene) {
     std::vector<Share> material_shares(scene.materials.size());
     std::vector<Share> instance_shares(scene.instances.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const double area = area_of(scene, scene.triangles[i]);
+        const double area = 0.5 * cross_of(scene.vertices, scene.triangles[i]).norm();
         whole.add(area);
         material_shares[scene.triangle_material[i]].add(area);
         instance_shares[scene.triangle_instance[i]].add(area);

@@ -28,21 +28,12 @@ struct Column {
 };
 
 // Both attitude formats start with the same four columns; TUM files have the first set.
-constexpr std::array<Column, 8> with_quaternion{{{"t_s", furthest_s},
-                                                 {"x_m", furthest_m},
-                                                 {"y_m", furthest_m},
-                                                 {"z_m", furthest_m},
-                                                 {"qx", 1e9},
-                                                 {"qy", 1e9},
-                                                 {"qz", 1e9},
-                                                 {"qw", 1e9}}};
-constexpr std::array<Column, 7> with_angles{{{"t_s", furthest_s},
-                                             {"x_m", furthest_m},
-                                             {"y_m", furthest_m},
-                                             {"z_m", furthest_m},
-                                             {"roll_deg", 1e6},
-                                             {"pitch_deg", 1e6},
-                                             {"yaw_deg", 1e6}}};
+constexpr Column with_quaternion[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
+                                      {"z_m", furthest_m}, {"qx", 1e9},         {"qy", 1e9},
+                                      {"qz", 1e9},         {"qw", 1e9}};
+constexpr Column with_angles[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
+                                  {"z_m", furthest_m}, {"roll_deg", 1e6},   {"pitch_deg", 1e6},
+                                  {"yaw_deg", 1e6}};
 constexpr std::size_t attitude_begin = 4;
 constexpr const char* header_help =
     "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
@@ -125,7 +116,7 @@ void check_names(std::span<const std::string> header, const Location& where) {
         }
         if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
         std::vector<std::string> known;
-        known.reserve(with_quaternion.size() + with_angles.size());
+        known.reserve(std::size(with_quaternion) + std::size(with_angles));
         for (const Column& column : with_quaternion)
             known.emplace_back(column.name);
         for (const Column& column : std::span(with_angles).subspan(attitude_begin)) {
@@ -208,7 +199,7 @@ Trajectory parse_tum(std::string_view text, const std::string& file) {
         const auto fields = split_blanks(line.substr(0, line.find('#')));
         if (fields.empty()) continue;
         const Location where{file, number};
-        std::array<double, with_quaternion.size()> values{};
+        std::array<double, std::size(with_quaternion)> values{};
         if (fields.size() != values.size()) {
             throw InputError(where, std::to_string(fields.size()) +
                                         " fields; a pose has 8: t x y z qx qy qz qw");

@@ -1,5 +1,7 @@
 #include "output/dataset/annotated_objects.h"
 
+#include "input/scene/copies.h"
+
 namespace sonarsim {
 
 namespace {

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/file.h"
-
 namespace sonarsim {
 
 namespace {
@@ -104,11 +102,6 @@ std::string geotiff_bytes(std::span<const float> values, int columns, const MapP
     std::string out = header(width, height, place, size);
     out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return out;
-}
-
-void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
-                   const MapPlace& place) {
-    write_file(path, geotiff_bytes(values, columns, place));
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -14,15 +13,9 @@ struct MapPlace {
     int epsg = 0;  ///< code of the projected reference system; 0: none
 };
 
-/// Writes a map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read:
-/// float32 [rows, columns], not compressed; NaN marks unknown cells and is the nodata value.
-/// `values` has one or more whole rows of `columns` and less than 4 GB.
-///
-/// Throws std::system_error when the disk does not take the file.
-void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
-                   const MapPlace& place);
-
-/// The same file in memory.
+/// A map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read: float32
+/// [rows, columns], not compressed; NaN marks unknown cells and is the nodata value. `values` has
+/// one or more whole rows of `columns` and less than 4 GB.
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place);
 
 }  // namespace sonarsim

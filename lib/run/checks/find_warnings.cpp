@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -54,8 +55,7 @@ void judge_ping_rate(const Mission& mission, const Trajectory& trajectory, const
 }
 
 void append(std::vector<Warning>& out, std::vector<Warning> more) {
-    for (Warning& warning : more)
-        out.push_back(std::move(warning));
+    std::ranges::move(more, std::back_inserter(out));
 }
 
 // An estimate, not a measurement: surface in every bin, at an error goal of 1 %.

@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "input/scene/copies.h"
+#include "input/scene/mesh_topology.h"
 #include "run/checks/directions.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/setup.h"
@@ -103,10 +104,7 @@ bool faces_up(const Scene& scene) {
     double up = 0.0;
     double either = 0.0;
     for (const std::array<std::uint32_t, 3>& corners : scene.triangles) {
-        const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>();
-        const Eigen::Vector3d b = scene.vertices[corners[1]].cast<double>();
-        const Eigen::Vector3d c = scene.vertices[corners[2]].cast<double>();
-        const double area = (b - a).cross(c - a).z();
+        const double area = cross_of(scene.vertices, corners).z();
         up += area;
         either += std::fabs(area);
     }

@@ -27,12 +27,8 @@ constexpr int gap = 12;
 constexpr int head_height = 30;
 constexpr int title_height = 20;
 
-constexpr std::array<Rgb, 6> sonar_colours{{{255, 196, 84},
-                                            {120, 205, 235},
-                                            {242, 120, 160},
-                                            {160, 226, 110},
-                                            {196, 160, 250},
-                                            {250, 150, 90}}};
+constexpr Rgb sonar_colours[] = {{255, 196, 84},  {120, 205, 235}, {242, 120, 160},
+                                 {160, 226, 110}, {196, 160, 250}, {250, 150, 90}};
 
 struct Tile {
     std::string title;
@@ -117,7 +113,7 @@ Preview draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     std::vector<Tile> tiles;
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         const Sonar sonar = coarse(assembly.sonars[i]);
-        const Rgb colour = sonar_colours[i % sonar_colours.size()];
+        const Rgb colour = sonar_colours[i % std::size(sonar_colours)];
         const std::uint32_t ping = ping_at(sonar, pose);
         const Pose& T_world_vehicle = trajectory[ping].T_world_vehicle;
         moment.beams.push_back(

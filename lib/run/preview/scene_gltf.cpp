@@ -20,14 +20,9 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::array<Rgb, 8> class_colours{{{222, 184, 104},
-                                            {112, 178, 214},
-                                            {214, 112, 134},
-                                            {132, 196, 110},
-                                            {178, 138, 220},
-                                            {226, 142, 84},
-                                            {104, 200, 180},
-                                            {206, 206, 110}}};
+constexpr Rgb class_colours[] = {{222, 184, 104}, {112, 178, 214}, {214, 112, 134},
+                                 {132, 196, 110}, {178, 138, 220}, {226, 142, 84},
+                                 {104, 200, 180}, {206, 206, 110}};
 constexpr Rgb background_colour{136, 140, 146};
 constexpr Rgb line_colour{255, 255, 255};
 
@@ -155,7 +150,7 @@ class SceneModel {
         return material(objects.classes[number],
                         objects.is_background(object)
                             ? background_colour
-                            : class_colours[number % class_colours.size()]);
+                            : class_colours[number % std::size(class_colours)]);
     }
 
     tinygltf::Node& child(const std::string& name, int mesh) {

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -253,8 +254,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     // 4. Maps of the ground, which replace materials.
     apply_ground_maps(mission.scene, materials, water, scene);
     if (mission.scene.heightmap) assembly.epsg = epsg_of(mission.scene.heightmap->file);
-    for (std::string& warning : parts.orientation_warnings)
-        scene.warnings.push_back(std::move(warning));
+    std::ranges::move(parts.orientation_warnings, std::back_inserter(scene.warnings));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);

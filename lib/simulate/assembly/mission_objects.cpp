@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "input/mission/variants.h"
 #include "input/scene/gltf/load.h"
+#include "input/scene/mesh_topology.h"
 #include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/sonar/kinds.h"
@@ -16,13 +17,8 @@ namespace sonarsim {
 
 namespace {
 
-double area_of(const std::vector<Eigen::Vector3f>& vertices,
-               const std::array<std::uint32_t, 3>& triangle) {
-    const Eigen::Vector3f& corner = vertices[triangle[0]];
-    return 0.5 * (vertices[triangle[1]] - corner)
-                     .cast<double>()
-                     .cross((vertices[triangle[2]] - corner).cast<double>())
-                     .norm();
+double area_of(std::span<const Eigen::Vector3f> vertices, const TriangleCorners& triangle) {
+    return 0.5 * cross_of(vertices, triangle).norm();
 }
 
 /// The surface of each object, m2, without the parts that move.

@@ -1,5 +1,6 @@
 #include "input/scene/heightmap/height_model.h"
 
+#include "core/file.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/placing/bottom.h"
 #include "output/format/geotiff.h"
@@ -21,7 +22,7 @@ struct MapFile {
         placed.file = folder.path / "map.tif";
         placed.z_up = true;
         placed.heightmap = rule;
-        write_geotiff(placed.file, heights, columns, place);
+        write_file(placed.file, geotiff_bytes(heights, columns, place));
     }
     /// Replaces the mark of unknown heights, which is NaN, by another text of three letters.
     void mark(const std::string& text) const {

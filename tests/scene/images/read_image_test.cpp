@@ -1,5 +1,6 @@
 #include "input/scene/images/read_image.h"
 
+#include "core/file.h"
 #include "output/format/geotiff.h"
 #include "support/test.h"
 
@@ -29,8 +30,8 @@ struct NumberedMap {
 
     explicit NumberedMap(double cell_m = 10, const std::vector<float>& values = numbers(),
                          int width = columns) {
-        write_geotiff(path, values, width,
-                      {.west_m = 500000, .north_m = 5600300, .cell_m = cell_m});
+        write_file(path, geotiff_bytes(values, width,
+                                       {.west_m = 500000, .north_m = 5600300, .cell_m = cell_m}));
     }
 
     /// Another file of the same map by GDAL, which has a reader and a writer of its own.

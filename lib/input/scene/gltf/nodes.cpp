@@ -12,12 +12,6 @@ namespace sonarsim {
 
 namespace {
 
-std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
-    if (!extras.IsObject() || !extras.Has("sonar")) return "";
-    const tinygltf::Value& sonar = extras.Get("sonar");
-    return sonar.IsObject() && sonar.Has(key) ? sonar.Get(key).Get<std::string>() : "";
-}
-
 template <class Parts>
 void check_parts(const Parts& parts, const std::string& list, const Location& where) {
     // Children inherit it, so that a long text would be stored many times.
@@ -210,12 +204,10 @@ Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
 
 }  // namespace
 
-std::string sonar_material(const tinygltf::Value& extras) {
-    return sonar_extra(extras, "material");
-}
-
-std::string sonar_class(const tinygltf::Value& extras) {
-    return sonar_extra(extras, "class");
+std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
+    if (!extras.IsObject() || !extras.Has("sonar")) return "";
+    const tinygltf::Value& sonar = extras.Get("sonar");
+    return sonar.IsObject() && sonar.Has(key) ? sonar.Get(key).Get<std::string>() : "";
 }
 
 void check_extras(const tinygltf::Model& model, const Location& where) {
@@ -262,9 +254,9 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
         const tinygltf::Node& node = graph.node(visit.node);
         const Eigen::Affine3d T_world_node =
             visit.T_world_parent * local_transform(graph, visit.node);
-        const std::string own = sonar_material(node.extras);
+        const std::string own = sonar_extra(node.extras, "material");
         const std::string& material = own.empty() ? visit.material : own;
-        const std::string own_class = sonar_class(node.extras);
+        const std::string own_class = sonar_extra(node.extras, "class");
         const std::string& label = own_class.empty() ? visit.label : own_class;
         if (node.mesh >= 0) {
             check_rigid(graph, visit.node);

@@ -13,11 +13,8 @@
 
 namespace sonarsim {
 
-/// extras.sonar.material, or "".
-std::string sonar_material(const tinygltf::Value& extras);
-
-/// extras.sonar.class, or "".
-std::string sonar_class(const tinygltf::Value& extras);
+/// extras.sonar.material or extras.sonar.class, by `key`; "" for none.
+std::string sonar_extra(const tinygltf::Value& extras, const char* key);
 
 /// InputError for an extras.sonar of a node or a material that is not an object, or that holds
 /// another key or another type than the texts above.

@@ -22,7 +22,7 @@ std::string name_in_file(const PlacedPrimitive& primitive) {
                          " does not exist");
     }
     const tinygltf::Material& material = model.materials[index];
-    const std::string own = sonar_material(material.extras);
+    const std::string own = sonar_extra(material.extras, "material");
     return own.empty() ? material.name : own;
 }
 
@@ -74,7 +74,7 @@ void take_class_of_material(const PlacedPrimitive& primitive, std::string& class
     const auto index = static_cast<std::size_t>(primitive.material);
     const tinygltf::Model& model = *primitive.file.model;
     if (index >= model.materials.size()) return;  // reported where the material is looked up
-    const std::string own = sonar_class(model.materials[index].extras);
+    const std::string own = sonar_extra(model.materials[index].extras, "class");
     if (own.empty() || own == class_name) return;
     if (!class_name.empty()) {
         throw InputError(primitive.where + " of node '" + primitive.mesh.instance +

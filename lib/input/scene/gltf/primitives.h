@@ -64,7 +64,7 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
                 continue;
             }
             const bool has_floats =
-                source->positions.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+                source->positions.component->number == TINYGLTF_COMPONENT_TYPE_FLOAT;
             visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], has_floats,
                                   read_positions(*source), read_triangles(*source, where),
                                   mesh.primitives[k].material, where});

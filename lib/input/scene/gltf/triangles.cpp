@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "core/error.h"
 
@@ -19,44 +20,28 @@ double number(const unsigned char* bytes, bool is_normalized) {
     T stored;
     std::memcpy(&stored, bytes, sizeof(T));
     const auto value = static_cast<double>(stored);
-    if (!is_normalized) return value;
+    if (!is_normalized || std::is_floating_point_v<T>) return value;
     return std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
 }
 
-double number(const unsigned char* bytes, int component_type, bool is_normalized) {
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return number<std::int8_t>(bytes, is_normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return number<std::uint8_t>(bytes, is_normalized);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return number<std::int16_t>(bytes, is_normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return number<std::uint16_t>(bytes, is_normalized);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return number<std::uint32_t>(bytes, is_normalized);
-        default:
-            return number<float>(bytes, false);
-    }
+template <class T>
+constexpr ComponentType component(int number_of_type, bool is_index, bool is_position) {
+    return {number_of_type, sizeof(T), is_index, is_position, number<T>};
 }
 
-std::size_t bytes_of(int component_type) {
-    return static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
-}
+constexpr ComponentType component_types[] = {
+    component<std::int8_t>(TINYGLTF_COMPONENT_TYPE_BYTE, false, true),
+    component<std::uint8_t>(TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, true, true),
+    component<std::int16_t>(TINYGLTF_COMPONENT_TYPE_SHORT, false, true),
+    component<std::uint16_t>(TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, true, true),
+    component<std::uint32_t>(TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, true, false),
+    component<float>(TINYGLTF_COMPONENT_TYPE_FLOAT, false, true)};
 
-bool is_index_type(int component_type) {
-    return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
-
-bool is_position_type(int component_type) {
-    return component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
-           component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
-           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-           component_type == TINYGLTF_COMPONENT_TYPE_SHORT ||
-           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+/// Null for a number that is none of glTF's.
+const ComponentType* component_of(int number_of_type) {
+    const auto* const found =
+        std::ranges::find(component_types, number_of_type, &ComponentType::number);
+    return found == std::end(component_types) ? nullptr : found;
 }
 
 /// Finds `count` >= 1 elements from `offset` on in a buffer view and checks that they lie within
@@ -99,18 +84,17 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
         throw InputError(where + ": sparse count " + std::to_string(count) +
                          " is not between 1 and the accessor's " + std::to_string(to.count));
     }
-    const int type = sparse.indices.componentType;
-    if (!is_index_type(type)) {
+    const ComponentType* const type = component_of(sparse.indices.componentType);
+    if (!type || !type->is_index)
         throw InputError(where + ": sparse indices must be unsigned integers");
-    }
     const Elements indices = locate(model, sparse.indices.bufferView,
                                     static_cast<std::size_t>(sparse.indices.byteOffset),
-                                    bytes_of(type), count, where + ": sparse indices");
+                                    type->bytes, count, where + ": sparse indices");
     to.sparse =
         locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
                element_bytes, count, where + ": sparse values");
     for (std::size_t i = 0; i < count; ++i) {
-        const auto at = static_cast<std::uint32_t>(number(indices.at(i), type, false));
+        const auto at = static_cast<std::uint32_t>(type->read(indices.at(i), false));
         if (at >= to.count || (i > 0 && at <= to.sparse_at.back())) {
             throw InputError(where + ": sparse indices must ascend and stay below " +
                              std::to_string(to.count));
@@ -126,9 +110,10 @@ Accessor open_accessor(const tinygltf::Model& model, int index, bool is_position
     if (static_cast<std::size_t>(index) >= model.accessors.size())
         throw InputError(where + ": accessor " + std::to_string(index) + " does not exist");
     const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
-    if (is_positions && !is_position_type(from.componentType))
+    const ComponentType* const type = component_of(from.componentType);
+    if (is_positions && !(type && type->is_position))
         throw InputError(where + ": positions must be float, or 8- or 16-bit integers");
-    if (!is_positions && !is_index_type(from.componentType))
+    if (!is_positions && !(type && type->is_index))
         throw InputError(where + ": indices must be unsigned 8-, 16- or 32-bit integers");
     if (from.type != (is_positions ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR)) {
         throw InputError(where + ": expected an accessor of type " +
@@ -140,10 +125,9 @@ Accessor open_accessor(const tinygltf::Model& model, int index, bool is_position
     }
     Accessor to;
     to.count = from.count;
-    to.component_type = from.componentType;
-    to.component_bytes = bytes_of(from.componentType);
+    to.component = type;
     to.is_normalized = from.normalized;
-    const std::size_t element_bytes = (is_positions ? 3 : 1) * to.component_bytes;
+    const std::size_t element_bytes = (is_positions ? 3 : 1) * type->bytes;
     if (from.bufferView >= 0) {
         to.elements =
             locate(model, from.bufferView, from.byteOffset, element_bytes, to.count, where);
@@ -169,15 +153,15 @@ const unsigned char* element(const Accessor& accessor, std::size_t i) {
 
 std::uint32_t vertex_index(const Accessor& accessor, std::size_t i) {
     const unsigned char* const bytes = element(accessor, i);
-    return bytes ? static_cast<std::uint32_t>(number(bytes, accessor.component_type, false)) : 0;
+    return bytes ? static_cast<std::uint32_t>(accessor.component->read(bytes, false)) : 0;
 }
 
 Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
     const unsigned char* const bytes = element(accessor, i);
     if (!bytes) return Eigen::Vector3d::Zero();
     const auto component = [&](std::size_t k) {
-        return number(bytes + k * accessor.component_bytes, accessor.component_type,
-                      accessor.is_normalized);
+        return accessor.component->read(bytes + k * accessor.component->bytes,
+                                        accessor.is_normalized);
     };
     return {component(0), component(1), component(2)};
 }

@@ -20,13 +20,20 @@ struct Elements {
     const unsigned char* at(std::size_t i) const { return data + i * stride; }
 };
 
+/// A type of numbers in a file.
+struct ComponentType {
+    int number;  ///< glTF's number of the type
+    std::size_t bytes;
+    bool is_index, is_position;  ///< it is allowed for these
+    double (*read)(const unsigned char* bytes, bool is_normalized);
+};
+
 /// Elements of a glTF accessor, read from the model's buffers: strided, sparse or both.
 /// The functions that open an accessor check that all its bytes exist.
 struct Accessor {
     Elements elements;  ///< without data: elements that are not sparse are 0
     std::size_t count = 0;
-    int component_type = 0;
-    std::size_t component_bytes = 0;
+    const ComponentType* component = nullptr;
     bool is_normalized = false;
     std::vector<std::uint32_t> sparse_at;  ///< indices of the replaced elements, ascending
     Elements sparse;                       ///< their values

@@ -20,18 +20,10 @@ constexpr std::uint32_t levels = 3;        ///< levels of detail of each
 Surface icosahedron() {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
     Surface out;
-    for (const auto& [x, y, z] : std::array<std::array<double, 3>, 12>{{{-1, g, 0},
-                                                                        {1, g, 0},
-                                                                        {-1, -g, 0},
-                                                                        {1, -g, 0},
-                                                                        {0, -1, g},
-                                                                        {0, 1, g},
-                                                                        {0, -1, -g},
-                                                                        {0, 1, -g},
-                                                                        {g, 0, -1},
-                                                                        {g, 0, 1},
-                                                                        {-g, 0, -1},
-                                                                        {-g, 0, 1}}})
+    const double corners[][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                 {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                 {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    for (const auto& [x, y, z] : corners)
         out.vertices.push_back(Eigen::Vector3d(x, y, z) / std::sqrt(1.0 + g * g));
     out.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                      {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},

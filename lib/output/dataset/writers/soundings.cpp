@@ -150,7 +150,7 @@ void write_bathymetry(const WriterContext& context, const SoundingSource& source
     if (z.empty()) z.push_back(std::nanf(""));
     const int columns = std::max(grid.columns, 1);
     const MapPlace place = map_place(context, grid);
-    write_geotiff(folder / "bathymetry.tif", z, columns, place);
+    write_file(folder / "bathymetry.tif", geotiff_bytes(z, columns, place));
     write_file(folder / "bathymetry.json",
                json_text(georeference(grid, place, bounds.count, left_out)));
     const Picture picture = draw_bathymetry(grid);

@@ -122,7 +122,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     std::vector<float> echoes = mosaic.mean();
     if (echoes.empty()) echoes.push_back(std::nanf(""));
     const MapPlace place = map_place(context, map);
-    write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1), place);
+    write_file(folder / "mosaic.tif", geotiff_bytes(echoes, std::max(map.columns, 1), place));
     const nlohmann::ordered_json json{
         {"file", "mosaic.tif"},
         {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
