@@ -17,6 +17,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "input/mission/parse.h"
+#include "output/dataset/json.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/ping_source.h"
 #include "simulate/assembly/mission_objects.h"
@@ -52,9 +53,9 @@ class LoadedMission {
     std::vector<std::shared_ptr<LoadedMission>> variants() const {
         const auto models = std::make_shared<SharedModels>();
         std::vector<std::shared_ptr<LoadedMission>> all;
-        for (Mission& variant : variants_of(mission_, source_)) {
-            all.push_back(std::make_shared<LoadedMission>(std::move(variant), source_, models));
-        }
+        const Variants variants = variants_of(mission_, source_);
+        for (int i = 0; i < variants.size(); ++i)
+            all.push_back(std::make_shared<LoadedMission>(variants[i], source_, models));
         return all;
     }
 

@@ -49,7 +49,7 @@ Mission load(const MissionOptions& options) {
     return mission;
 }
 
-std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission) {
+Variants load_variants(const MissionOptions& options, const Mission& mission) {
     if (mission.variants == 0) return {};
     return variants_of(mission, source_of(options));
 }

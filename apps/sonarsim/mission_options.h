@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "input/mission/variants.h"
 
 namespace sonarsim {
 
@@ -33,6 +34,6 @@ void add_threads_option(CLI::App& command, int& threads,
 Mission load(const MissionOptions& options);
 
 /// The variants of that mission; empty if it has none.
-std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission);
+Variants load_variants(const MissionOptions& options, const Mission& mission);
 
 }  // namespace sonarsim

@@ -29,10 +29,10 @@ struct PreviewArguments {
 /// Loads the mission, or its first variant if it has variants.
 Mission load_one(const MissionOptions& options) {
     Mission mission = load(options);
-    const std::vector<Mission> variants = load_variants(options, mission);
-    if (variants.empty()) return mission;
+    const Variants variants = load_variants(options, mission);
+    if (variants.size() == 0) return mission;
     spdlog::info("{} variants: this is the first of them", variants.size());
-    return variants.front();
+    return variants[0];
 }
 
 int preview(const PreviewArguments& arguments) {

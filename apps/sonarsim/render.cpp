@@ -192,7 +192,7 @@ Outcome render_one(const RenderArguments& arguments, const Mission& mission,
 }
 
 Outcome render_variants(const RenderArguments& arguments, const Mission& mission,
-                        const std::vector<Mission>& variants, const std::atomic<bool>& stop) {
+                        const Variants& variants, const std::atomic<bool>& stop) {
     spdlog::info("{}: {} variants", mission.name, variants.size());
     Outcome out;
     ProgressLine line(arguments.log, "variants");
@@ -216,8 +216,8 @@ int render(RenderArguments arguments) {
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) refuse_overwriting_mission(arguments.mission.file, mission);
-    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
-    auto [summary, warnings, after] = variants.empty()
+    const Variants variants = load_variants(arguments.mission, mission);
+    auto [summary, warnings, after] = variants.size() == 0
                                           ? render_one(arguments, mission, stop)
                                           : render_variants(arguments, mission, variants, stop);
     if (summary.unlocked)

@@ -226,17 +226,17 @@ void announce(const std::string& what) {
 
 /// Checks every variant, since scenes differ and each may fail for its own reasons. Casts rays only
 /// in the first.
-VariantFindings check_variants(const std::vector<Mission>& variants,
-                               const ValidateArguments& arguments) {
+VariantFindings check_variants(const Variants& variants, const ValidateArguments& arguments) {
     VariantFindings all;
     std::vector<PingCost> costs;
     double set_up_s = 0.0;
     SceneStore models;
     models.announce = announce;
     ProgressLine line(arguments.log, "variants");
-    for (const Mission& variant : variants) {
+    for (int i = 0; i < variants.size(); ++i) {
         Stopwatch watch;
         const bool is_first = all.variants++ == 0;
+        const Mission variant = variants[i];
         const Mission checked = is_first ? variant : checked_variant(variant);
         const Assembly assembly = assemble(checked, models);
         models.announce = nullptr;  // the other variants take as long
@@ -279,8 +279,8 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
 int validate(const ValidateArguments& arguments) {
     start_logging(arguments.log);
     const Mission mission = load(arguments.mission);
-    const std::vector<Mission> variants = load_variants(arguments.mission, mission);
-    if (!variants.empty()) {
+    const Variants variants = load_variants(arguments.mission, mission);
+    if (variants.size() > 0) {
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
         const VariantFindings all = check_variants(variants, arguments);

@@ -35,13 +35,6 @@ Sample square(const Eigen::Vector3f& at, const Eigen::Vector3f& normal, float si
     return patch_of(at, normal, 0.5F * side_m * u, 0.5F * side_m * normal.cross(u));
 }
 
-/// sigma of sand by the formulas of the report.
-double sand(double sine, double frequency_hz, double sound_speed_m_s) {
-    const SeafloorScattering bed(sea_bed_of_grain_size(1.5),
-                                 2.0 * pi * frequency_hz / sound_speed_m_s);
-    return bed.diffuse(std::asin(sine)) + bed.specular(std::asin(sine));
-}
-
 constexpr View fan_view{0.6, 1.2, 3.0, 5.0, 200, 65};
 
 CalibratedModel fan_model() {

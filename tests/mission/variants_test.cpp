@@ -111,7 +111,14 @@ TEST_CASE("variants are missions with other seeds and values") {
                          "  - {key: trajectory, choice: [{file: b.tum}]}\n");
     const auto draw = [&](const std::vector<std::string>& overrides) {
         const MissionSource source{file, folder.path, overrides};
-        return draw_variants(load_mission(source, sonar_keys()), source, sonar_keys());
+        const Variants variants(load_mission(source, sonar_keys()), source, sonar_keys());
+        std::vector<Mission> all;
+        for (int i = 0; i < variants.size(); ++i) {
+            all.push_back(variants[i]);
+            CHECK(variants.seed(i) == all.back().seed);
+            CHECK(variants.drawn(i) == all.back().variant.drawn);
+        }
+        return all;
     };
     const std::vector<Mission> four = draw({"output.folder=/out"});
     REQUIRE(four.size() == 4);

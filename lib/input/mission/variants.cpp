@@ -17,11 +17,6 @@ namespace {
 constexpr std::uint32_t all_variants = 0xFFFFFFFFU;
 constexpr std::uint32_t no_sensor = 0xFFFFFFFFU;
 
-std::uint64_t seed_of(std::uint64_t seed, std::uint32_t variant) {
-    const PhiloxKey key = stream_key(seed, no_sensor, variant, Stream::variation);
-    return (std::uint64_t{key.k1} << 32) | key.k0;
-}
-
 /// Keeps only the rules that are drawn for every ping.
 void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     YamlNode* list = root.find("vary");
@@ -32,19 +27,6 @@ void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     }
     list->items = std::move(kept);
     if (list->items.empty()) erase_key(root, "vary");
-}
-
-/// The values of a variant by the rules of `vary`; "" for rules that are drawn for every ping.
-std::vector<std::string> draw_values(const Mission& mission, std::uint32_t index) {
-    std::vector<std::string> values;
-    for (std::size_t k = 0; k < mission.vary.size(); ++k) {
-        const VaryConfig& rule = mission.vary[k];
-        values.push_back(rule.per == VaryPer::ping
-                             ? ""
-                             : draw_value(rule, mission.seed, static_cast<std::uint32_t>(k),
-                                          rule.per == VaryPer::dataset ? all_variants : index));
-    }
-    return values;
 }
 
 bool has_scale(const VaryConfig& rule) {
@@ -59,58 +41,15 @@ std::string scaled(const VaryConfig& rule, const std::string& factor, const Yaml
                                      printable(rule.key) + "' is not");
 }
 
-/// Makes missions of values that are drawn.
-class VariantMaker {
-  public:
-    VariantMaker(const Mission& mission, const MissionSource& source, SonarKeyTable sonars)
-        : mission_(mission),
-          source_(source),
-          sonars_(sonars),
-          whole_(read_mission_document(source)) {
-        fill_in_rules(whole_, source.base_folder);
-        erase_key(whole_, "variants");
-        keep_rules_of_pings(whole_, mission.vary);
-    }
+/// True if a rule without `scale` may change the value that a rule with `scale` multiplies.
+bool may_change(const VaryConfig& rule, const VaryConfig& scaled) {
+    return scaled.key.starts_with(rule.key) || rule.key.ends_with("preset") ||
+           rule.key.ends_with("kind") || rule.key.ends_with("model");
+}
 
-    Mission make(int index, const std::vector<std::string>& values) const {
-        YamlNode root = whole_;
-        set_text(root, "seed",
-                 std::to_string(seed_of(mission_.seed, static_cast<std::uint32_t>(index))),
-                 {source_.file.string()});
-        Variant variant;
-        variant.index = index;
-        const auto set = [&](const VaryConfig& rule, const std::string& value) {
-            set_text(root, rule.key, value, rule.place);
-            variant.drawn.emplace_back(rule.key, value);
-        };
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            const VaryConfig& rule = mission_.vary[k];
-            if (rule.per != VaryPer::ping && !rule.scale) set(rule, values[k]);
-        }
-        if (std::ranges::any_of(mission_.vary, has_scale)) {
-            // After the other rules, one of which may draw a preset.
-            const YamlNode own = read_document(resolved_yaml(parsed(root), sonars_), "");
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                const VaryConfig& rule = mission_.vary[k];
-                if (rule.scale) set(rule, scaled(rule, values[k], own));
-            }
-        }
-        Mission drawn = parsed(root);
-        drawn.output.folder = mission_.output.folder / variant_folder(index);
-        drawn.variant = std::move(variant);
-        return drawn;
-    }
-
-  private:
-    Mission parsed(const YamlNode& root) const {
-        return parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
-    }
-
-    const Mission& mission_;
-    const MissionSource& source_;
-    SonarKeyTable sonars_;
-    YamlNode whole_;
-};
+bool is_of_variants(const VaryConfig& rule) {
+    return rule.per != VaryPer::ping;
+}
 
 /// The values of a rule that show all objects that it may bring.
 std::vector<std::string> choices_of_objects(const VaryConfig& rule) {
@@ -128,28 +67,104 @@ std::string variant_folder(int index) {
     return "variant_" + std::string(digits - std::min(digits, number.size()), '0') + number;
 }
 
-std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
-                                   SonarKeyTable sonars) {
-    const VariantMaker maker(mission, source, sonars);
-    std::vector<Mission> variants;
-    variants.reserve(static_cast<std::size_t>(mission.variants));
-    for (int i = 0; i < mission.variants; ++i)
-        variants.push_back(maker.make(i, draw_values(mission, static_cast<std::uint32_t>(i))));
-    return variants;
+Variants::Variants(const Mission& mission, const MissionSource& source, SonarKeyTable sonars)
+    : mission_(mission), source_(source), sonars_(sonars), whole_(read_mission_document(source)) {
+    fill_in_rules(whole_, source.base_folder);
+    erase_key(whole_, "variants");
+    keep_rules_of_pings(whole_, mission.vary);
+    const std::vector<VaryConfig>& rules = mission_.vary;
+    const bool is_changed = std::ranges::any_of(rules, [&](const VaryConfig& scaled) {
+        return has_scale(scaled) && std::ranges::any_of(rules, [&](const VaryConfig& rule) {
+                   return is_of_variants(rule) && !has_scale(rule) && may_change(rule, scaled);
+               });
+    });
+    if (std::ranges::any_of(rules, has_scale) && !is_changed)
+        own_ = read_document(resolved_yaml(parsed(whole_), sonars_), "");
 }
 
-std::vector<Mission> extreme_variants(const Mission& mission, const MissionSource& source,
-                                      SonarKeyTable sonars) {
-    const VariantMaker maker(mission, source, sonars);
+std::uint64_t Variants::seed(int index) const {
+    const PhiloxKey key =
+        stream_key(mission_.seed, no_sensor, static_cast<std::uint32_t>(index), Stream::variation);
+    return (std::uint64_t{key.k1} << 32) | key.k0;
+}
+
+DrawnValues Variants::drawn(int index) const {
+    return drawn_of(draw_values(index));
+}
+
+std::vector<Mission> Variants::extremes() const {
     std::vector<Mission> extremes;
-    for (std::size_t k = 0; k < mission.vary.size(); ++k) {
-        for (const std::string& value : choices_of_objects(mission.vary[k])) {
-            std::vector<std::string> values = draw_values(mission, 0);
+    for (std::size_t k = 0; k < mission_.vary.size(); ++k) {
+        for (const std::string& value : choices_of_objects(mission_.vary[k])) {
+            std::vector<std::string> values = draw_values(0);
             values[k] = value;
-            extremes.push_back(maker.make(0, values));
+            extremes.push_back(make(0, values));
         }
     }
     return extremes;
+}
+
+/// The values by the rules of `vary`; "" for rules that are drawn for every ping.
+std::vector<std::string> Variants::draw_values(int index) const {
+    std::vector<std::string> values;
+    for (std::size_t k = 0; k < mission_.vary.size(); ++k) {
+        const VaryConfig& rule = mission_.vary[k];
+        const auto of =
+            rule.per == VaryPer::dataset ? all_variants : static_cast<std::uint32_t>(index);
+        values.push_back(is_of_variants(rule)
+                             ? draw_value(rule, mission_.seed, static_cast<std::uint32_t>(k), of)
+                             : "");
+    }
+    return values;
+}
+
+DrawnValues Variants::drawn_of(const std::vector<std::string>& values) const {
+    DrawnValues drawn;
+    for (const bool scales : {false, true}) {
+        std::optional<YamlNode> changed;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            const VaryConfig& rule = mission_.vary[k];
+            if (!is_of_variants(rule) || has_scale(rule) != scales) continue;
+            if (scales && !own_ && !changed) changed = own_values(values);
+            drawn.emplace_back(
+                rule.key, scales ? scaled(rule, values[k], own_ ? *own_ : *changed) : values[k]);
+        }
+    }
+    return drawn;
+}
+
+/// The resolved values of the mission with the values of the rules without `scale`.
+YamlNode Variants::own_values(const std::vector<std::string>& values) const {
+    YamlNode root = whole_;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const VaryConfig& rule = mission_.vary[k];
+        if (is_of_variants(rule) && !has_scale(rule))
+            set_text(root, rule.key, values[k], rule.place);
+    }
+    return read_document(resolved_yaml(parsed(root), sonars_), "");
+}
+
+Mission Variants::make(int index, const std::vector<std::string>& values) const {
+    YamlNode root = whole_;
+    set_text(root, "seed", std::to_string(seed(index)), {source_.file.string()});
+    Variant variant = objects_;
+    variant.index = index;
+    variant.drawn = drawn_of(values);
+    auto drawn = variant.drawn.begin();
+    for (const bool scales : {false, true}) {
+        for (const VaryConfig& rule : mission_.vary) {
+            if (is_of_variants(rule) && has_scale(rule) == scales)
+                set_text(root, rule.key, (drawn++)->second, rule.place);
+        }
+    }
+    Mission made = parsed(root);
+    made.output.folder = mission_.output.folder / variant_folder(index);
+    made.variant = std::move(variant);
+    return made;
+}
+
+Mission Variants::parsed(const YamlNode& root) const {
+    return parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
 }
 
 }  // namespace sonarsim

@@ -63,15 +63,12 @@ void remove_variants(const fs::path& folder, const Mission& mission) {
 }
 
 /// InputError for a variant whose objects find no room, before any of the variants is written.
-void require_places(std::span<const Mission* const> variants, SceneStore& models) {
-    for (const Mission* variant : variants) {
-        if (variant->scene.scatter.empty()) continue;
-        try {
-            check_places(*variant, models);
-        } catch (const InputError& error) {
-            throw InputError(error.what() + (" (in " + variant_folder(variant->variant.index)) +
-                             ")");
-        }
+void require_places(const Mission& variant, SceneStore& models) {
+    if (variant.scene.scatter.empty()) return;
+    try {
+        check_places(variant, models);
+    } catch (const InputError& error) {
+        throw InputError(error.what() + (" (in " + variant_folder(variant.variant.index)) + ")");
     }
 }
 
@@ -100,7 +97,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& 
 
 }  // namespace
 
-Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
+Json describe_variants(const Mission& mission, const Variants& variants) {
     Mission one = mission;  // a variant does not depend on their number
     one.variants = 1;
     Json json = {{"format", variants_format},
@@ -110,10 +107,10 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
                  {"mission_hash", mission_hash(one, sonar_keys())},
                  {"seed", mission.seed}};
     json["variants"] = Json::array();
-    for (const Mission& variant : variants) {
-        json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
-                                    {"seed", variant.seed},
-                                    {"drawn", describe_drawn(variant.variant.drawn)}});
+    for (int i = 0; i < variants.size(); ++i) {
+        json["variants"].push_back({{"folder", variant_folder(i)},
+                                    {"seed", variants.seed(i)},
+                                    {"drawn", describe_drawn(variants.drawn(i))}});
     }
     return json;
 }
@@ -151,7 +148,7 @@ void require_same_variants(const fs::path& folder, const Json& json, const fs::p
     if (*own != json) refuse_variants(folder, " than " + first.string());
 }
 
-void inspect_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+void inspect_variants(const fs::path& folder, const Json& json, const Variants& variants,
                       bool overwrite) {
     // In this order: another shard may write variants.json at any moment.
     const bool has_files = fs::exists(folder) && !is_unused(folder);
@@ -162,10 +159,9 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
                          "output.folder, or remove it");
     if (found && !begins(*found, json) && !overwrite) {
         std::string difference;
-        if (!variants.empty())
-            difference =
-                mission_differences(folder / variant_folder(0),
-                                    resolved_yaml(portable(variants.front()), sonar_keys()));
+        if (variants.size() > 0)
+            difference = mission_differences(folder / variant_folder(0),
+                                             resolved_yaml(portable(variants[0]), sonar_keys()));
         refuse_variants(
             folder, difference + "; choose another output.folder, or --overwrite to start again");
     }
@@ -181,7 +177,7 @@ void claim_variants(const fs::path& folder, const Json& json) {
     if (read_variants(folder) != json) write_file_durably(folder / variants_name, json_text(json));
 }
 
-RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+RenderSummary run_variants(const Mission& mission, const Variants& variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
     check(options);
@@ -190,20 +186,21 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     if (options.files) inspect_variants(folder, json, variants, options.overwrite);
     RenderSummary all;
     SceneStore models;
-    std::vector<const Mission*> todo;
-    for (auto i = static_cast<std::size_t>(options.shard); i < variants.size();
-         i += options.shards) {
-        const auto pings = options.files && !options.overwrite ? finished_pings(variants[i], models)
-                                                               : std::nullopt;
+    std::vector<int> todo;
+    for (int i = options.shard; i < variants.size(); i += options.shards) {
+        const Mission variant = variants[i];
+        const auto pings =
+            options.files && !options.overwrite ? finished_pings(variant, models) : std::nullopt;
         all.skipped += pings.value_or(0);
-        if (!pings) todo.push_back(&variants[i]);
+        if (pings) continue;
+        todo.push_back(i);
+        require_places(variant, models);
     }
-    require_places(todo, models);
     std::optional<ShardLock> lock;
     const auto enter = [&] {
         lock.emplace(folder, options.shard, options.shards);
         all.unlocked = !lock->works();
-        if (options.overwrite) remove_variants(folder, variants.front());
+        if (options.overwrite) remove_variants(folder, variants[0]);
         claim_variants(folder, json);
     };
     const RenderOptions one_by_one{
@@ -212,15 +209,19 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     Stopwatch watch;
     // While a variant is rendered, the next one is assembled.
     const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
-    std::future<Assembly> next;
+    std::future<std::pair<Mission, Assembly>> next;
     const auto begin_assembly = [&](std::size_t k) {
-        next =
-            std::async(when, [&models, &variant = *todo[k]] { return assemble(variant, models); });
+        next = std::async(when, [&models, &variants, index = todo[k]] {
+            Mission variant = variants[index];
+            Assembly assembly = assemble(variant, models);
+            return std::pair(std::move(variant), std::move(assembly));
+        });
     };
     if (!todo.empty()) begin_assembly(0);
     for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
-        const Mission& variant = *todo[k];
-        const Assembly assembly = next.get();
+        const auto assembled = next.get();
+        const Mission& variant = assembled.first;
+        const Assembly& assembly = assembled.second;
         if (k + 1 < todo.size()) begin_assembly(k + 1);
         if (begin) begin(variant, assembly);
         if (options.files && !lock) enter();  // once the first scene has been read
@@ -244,8 +245,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         lock.reset();
         tidy(folder, Json::object());  // runs were killed
     }
-    for (const Mission& variant : variants)
-        all.complete = all.complete && is_complete(variant.output.folder);
+    for (int i = 0; i < variants.size() && all.complete; ++i)
+        all.complete = is_complete(folder / variant_folder(i));
     all.seconds = watch.lap();
     return all;
 }

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "input/mission/variants.h"
 #include "run/job/run_job.h"
 
 // The variants of a mission lie below one folder:
@@ -18,7 +18,7 @@
 namespace sonarsim {
 
 /// The variants.json of a mission.
-nlohmann::ordered_json describe_variants(const Mission& mission, std::span<const Mission> variants);
+nlohmann::ordered_json describe_variants(const Mission& mission, const Variants& variants);
 
 /// The variants.json of a folder; nothing if there is none. InputError when it is not sonarsim's.
 std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
@@ -34,7 +34,7 @@ void require_same_variants(const std::filesystem::path& folder, const nlohmann::
 /// InputError when the output folder holds other files, a link or, unless with `overwrite`, other
 /// variants than those of `json`. It may hold fewer.
 void inspect_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
-                      std::span<const Mission> variants, bool overwrite);
+                      const Variants& variants, bool overwrite);
 
 /// Makes variants.json, or replaces one with fewer variants: of several runs one makes it.
 /// InputError when another one is there. The caller holds a lock on the folder.
@@ -48,7 +48,7 @@ using VariantCallback = std::function<void(const Mission& variant, const Assembl
 
 /// Renders the variants of a mission that are not finished, one after the other, each as run_job
 /// does. The summary holds the sums over all of them and the warnings about each, with its folder.
-RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+RenderSummary run_variants(const Mission& mission, const Variants& variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop);
 

@@ -216,11 +216,11 @@ PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
     return possible;
 }
 
-std::vector<Mission> variants_of(const Mission& mission, const MissionSource& source) {
-    std::vector<Mission> variants = draw_variants(mission, source, sonar_keys());
+Variants variants_of(const Mission& mission, const MissionSource& source) {
+    Variants variants(mission, source, sonar_keys());
     SceneFiles models;
     Variant all;
-    for (const Mission& extreme : extreme_variants(mission, source, sonar_keys())) {
+    for (const Mission& extreme : variants.extremes()) {
         const Scene named = named_instances(extreme, models);
         const PossibleObjects possible = possible_objects(extreme, named);
         std::vector<std::pair<std::string, std::string>> instances;
@@ -229,10 +229,7 @@ std::vector<Mission> variants_of(const Mission& mission, const MissionSource& so
         add_new(instances, all.instances);
         add_new(classes_of(possible, extreme.classes), all.classes);
     }
-    for (Mission& variant : variants) {
-        variant.variant.classes = all.classes;
-        variant.variant.instances = all.instances;
-    }
+    variants.note(std::move(all));
     return variants;
 }
 

@@ -7,6 +7,7 @@
 
 #include "input/mission/mission.h"
 #include "input/mission/parse.h"
+#include "input/mission/variants.h"
 #include "input/scene/objects.h"
 #include "input/scene/scene.h"
 
@@ -33,8 +34,8 @@ std::optional<std::string> background_by_size(const Mission& mission, const Scen
 /// scene has none.
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene);
 
-/// Draws the variants of a mission, as draw_variants(), and notes in each of them the classes of
-/// all choices. Reads the files of the scene if `vary` changes the scene or the classes.
-std::vector<Mission> variants_of(const Mission& mission, const MissionSource& source);
+/// The variants of a mission, each with the classes of all choices. Reads the files of the scene if
+/// `vary` changes the scene or the classes.
+Variants variants_of(const Mission& mission, const MissionSource& source);
 
 }  // namespace sonarsim
