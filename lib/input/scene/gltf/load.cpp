@@ -11,7 +11,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/gltf/extent.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -7,12 +8,28 @@
 #include <string>
 #include <vector>
 
-#include "input/scene/gltf/extent.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/scene.h"
 
 namespace sonarsim {
+
+/// The extent of a file's surface where it is placed.
+struct SurfaceExtent {
+    /// Box around the triangles that have an area, before they are rounded to floats.
+    Eigen::AlignedBox3d box;
+    double vertex_rounding_m = 0.0;  ///< as in Scene
+
+    Eigen::Vector3d centre() const {
+        return box.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : box.center();
+    }
+};
+
+/// InputError for vertices beyond the limits of coordinates.
+SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit);
+
+/// The extent after a transform. Its box encloses the transformed box. InputError as above.
+SurfaceExtent moved(const SurfaceExtent& extent, const Eigen::Affine3d& transform);
 
 /// A file that the scene places several times, as if it were placed at the origin.
 struct RepeatedFile {
