@@ -1,5 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "output/dataset/json.h"
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "simulate/product/bathymetry.h"
@@ -13,12 +19,26 @@ inline Eigen::Vector2d map_origin(const Mission& mission) {
                      : Eigen::Vector2d(0.0, 0.0);
 }
 
-/// The place of a map of the bottom: in the coordinates of the scene's heightmap, if there is one,
-/// else in those of the world.
-inline MapPlace map_place(const WriterContext& context, const Bathymetry& map) {
+/// Writes a map of the bottom: NAME.tif with its values, and NAME.json with the keys of `head`, the
+/// place and the keys of `tail`. The place is in the coordinates of the scene's heightmap, if there
+/// is one, else in those of the world.
+inline void write_map(const WriterContext& context, const std::filesystem::path& folder,
+                      const std::string& name, const Bathymetry& map, std::vector<float> values,
+                      nlohmann::ordered_json head, const nlohmann::ordered_json& tail) {
+    // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
+    if (values.empty()) values.push_back(std::nanf(""));
     const Eigen::Vector2d origin = map_origin(context.mission);
-    return {origin.x() + map.west_m, origin.y() + map.north_m, map.cell_m > 0.0 ? map.cell_m : 1.0,
-            context.assembly.epsg};
+    const MapPlace place{origin.x() + map.west_m, origin.y() + map.north_m,
+                         map.cell_m > 0.0 ? map.cell_m : 1.0, context.assembly.epsg};
+    write_file(folder / (name + ".tif"), geotiff_bytes(values, std::max(map.columns, 1), place));
+    head.update({{"rows", map.rows},
+                 {"columns", map.columns},
+                 {"cell_m", map.cell_m},
+                 {"west_m", place.west_m},
+                 {"north_m", place.north_m},
+                 {"epsg", place.epsg}});
+    head.update(tail);
+    write_file(folder / (name + ".json"), json_text(head));
 }
 
 }  // namespace sonarsim

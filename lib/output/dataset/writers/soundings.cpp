@@ -9,11 +9,9 @@
 #include <span>
 
 #include "core/file.h"
-#include "output/dataset/json.h"
 #include "output/dataset/labelled_ping.h"
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
-#include "output/format/geotiff.h"
 #include "simulate/product/bathymetry.h"
 
 namespace sonarsim {
@@ -81,24 +79,6 @@ bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
 }
 
-nlohmann::ordered_json georeference(const Bathymetry& grid, const MapPlace& place,
-                                    std::uint64_t used, std::uint64_t left_out) {
-    return {{"file", "bathymetry.tif"},
-            {"values", "mean world z of the soundings in a cell, m; NaN where there are none"},
-            {"rows", grid.rows},
-            {"columns", grid.columns},
-            {"cell_m", grid.cell_m},
-            {"west_m", place.west_m},
-            {"north_m", place.north_m},
-            {"epsg", place.epsg},
-            {"axes",
-             "row 0 is north (greatest y), column 0 west (least x): cell (row, column) is centred "
-             "at x = west_m + (column + 0.5) cell_m, y = north_m - (row + 0.5) cell_m"},
-            {"least_quality", map_quality},
-            {"soundings", used},
-            {"soundings_left_out", left_out}};
-}
-
 std::string csv_line(const RecordedSounding& s, double time_s) {
     return fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}{}{}\n", s.pose, time_s,
                        s.beam, s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality,
@@ -145,14 +125,15 @@ void write_bathymetry(const WriterContext& context, const SoundingSource& source
     for_each_sounding(source, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });
-    // A TIFF has at least one pixel; without soundings it is NaN.
-    std::vector<float> z = grid.mean_z();
-    if (z.empty()) z.push_back(std::nanf(""));
-    const int columns = std::max(grid.columns, 1);
-    const MapPlace place = map_place(context, grid);
-    write_file(folder / "bathymetry.tif", geotiff_bytes(z, columns, place));
-    write_file(folder / "bathymetry.json",
-               json_text(georeference(grid, place, bounds.count, left_out)));
+    write_map(context, folder, "bathymetry", grid, grid.mean_z(),
+              {{"file", "bathymetry.tif"},
+               {"values", "mean world z of the soundings in a cell, m; NaN where there are none"}},
+              {{"axes",
+                "row 0 is north (greatest y), column 0 west (least x): cell (row, column) is "
+                "centred at x = west_m + (column + 0.5) cell_m, y = north_m - (row + 0.5) cell_m"},
+               {"least_quality", map_quality},
+               {"soundings", bounds.count},
+               {"soundings_left_out", left_out}});
     const Picture picture = draw_bathymetry(grid);
     write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -9,10 +8,8 @@
 #include "core/file.h"
 #include "core/pose.h"
 #include "core/units.h"
-#include "output/dataset/json.h"
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
-#include "output/format/geotiff.h"
 #include "output/format/xtf.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/mosaic.h"
@@ -117,27 +114,14 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
         add_between(context.sonar(), before ? *before : now, now, mosaic);
         before = std::move(now);
     });
-    const Bathymetry& map = mosaic.grid;
-    // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
-    std::vector<float> echoes = mosaic.mean();
-    if (echoes.empty()) echoes.push_back(std::nanf(""));
-    const MapPlace place = map_place(context, map);
-    write_file(folder / "mosaic.tif", geotiff_bytes(echoes, std::max(map.columns, 1), place));
-    const nlohmann::ordered_json json{
-        {"file", "mosaic.tif"},
-        {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
-        {"weight", "4 u (1 - u) of the ground at the share u of a swath's reach"},
-        {"interpolation", "linear between pings"},
-        {"rows", map.rows},
-        {"columns", map.columns},
-        {"cell_m", map.cell_m},
-        {"west_m", place.west_m},
-        {"north_m", place.north_m},
-        {"epsg", place.epsg},
-        {"ground", "level, at the first return of each ping"},
-        {"pings", rows.records() - dark},
-        {"pings_left_out", dark}};
-    write_file(folder / "mosaic.json", json_text(json));
+    write_map(context, folder, "mosaic", mosaic.grid, mosaic.mean(),
+              {{"file", "mosaic.tif"},
+               {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
+               {"weight", "4 u (1 - u) of the ground at the share u of a swath's reach"},
+               {"interpolation", "linear between pings"}},
+              {{"ground", "level, at the first return of each ping"},
+               {"pings", rows.records() - dark},
+               {"pings_left_out", dark}});
 }
 
 }  // namespace
