@@ -92,10 +92,6 @@ struct Floats8 {
     friend Floats8 floor(Floats8 a) { return _mm256_floor_ps(a.v); }
     /// 0 in the lanes that are false.
     friend Floats8 where(Mask8 mask, Floats8 a) { return _mm256_and_ps(mask.v, a.v); }
-    /// a in the lanes that are true, b in the others.
-    friend Floats8 where(Mask8 mask, Floats8 a, Floats8 b) {
-        return _mm256_blendv_ps(b.v, a.v, mask.v);
-    }
     /// Rounded towards 0.
     friend Ints8 to_ints(Floats8 a) { return _mm256_cvttps_epi32(a.v); }
     friend Ints8 bits_of_floats(Floats8 a) { return _mm256_castps_si256(a.v); }
@@ -104,6 +100,11 @@ struct Floats8 {
         return _mm256_permutevar8x32_ps(values.v, at.v);
     }
 };
+
+/// a in the lanes that are true, b in the others.
+inline Floats8 where(Mask8 mask, Floats8 a, Floats8 b) {
+    return _mm256_blendv_ps(b.v, a.v, mask.v);
+}
 
 /// 0 to 7.
 inline Ints8 lane_numbers() {
