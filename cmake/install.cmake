@@ -37,7 +37,7 @@ install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADI
 # Users cannot write where the missions are installed, so their scenes are installed, too.
 install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET
     COMMAND /usr/bin/python3 -B \"${PROJECT_SOURCE_DIR}/scripts/make_scenes.py\"
-            seafloor wreck close_bottom lifeboat bathymetry sediments stock
+            seafloor wreck close_bottom lifeboat bathymetry sediments basin stock
             --out \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/sonarsim/scenes/generated\")"
         COMPONENT program)
 

@@ -11,6 +11,7 @@ lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
           GeoTIFF
+basin     the map of decibels of the floor of scenes/basin.obj, basin_floor.tif
 stock     forty kinds of things, each in six drawn examples: stock/tyre_1.glb and so on, for
           `scatter: [{stock: tyre}]`
 
@@ -27,7 +28,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
+from scenes import basin, bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named, stock_named
 
@@ -46,13 +47,14 @@ def builders(cells: int, area: float) -> dict:
         "lifeboat": {"lifeboat.glb": lifeboat.build},
         "bathymetry": {"bathymetry.tif": bathymetry.build},
         "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
+        "basin": {"basin_floor.tif": basin.decibels},
         "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},
     }
 
 
 def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
     """Writes the format that the ending of `name` asks for. Returns what the file holds."""
-    pixel_m = sediments.MOSAIC_PIXEL_M if name.stem == "backscatter" else bathymetry.PIXEL_M
+    pixel_m = {"backscatter": sediments.MOSAIC_PIXEL_M, "basin_floor": basin.PIXEL_M}.get(name.stem, bathymetry.PIXEL_M)
     writers = {".png": sediments.write_png, ".tif": lambda path, rows: bathymetry.write_geotiff(path, rows, pixel_m),
                ".glb": write_glb}
     size = writers[name.suffix](file, parts)
