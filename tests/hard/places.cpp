@@ -107,7 +107,7 @@ Scene halves() {
     return scene;
 }
 
-HardTrial over_seam(SonarKind kind) {
+HardTrial at_a_seam(SonarKind kind) {
     HardTrial trial = over_floor(kind);
     trial.T_world_vehicle = {rotation_from_rpy(0.0, looks_forward(kind) ? 0.5 : 0.0, 0.0),
                              {0.0, 0.0, 3.0}};
@@ -163,7 +163,7 @@ std::vector<HardCase> hard_sonar_limits() {
              .bounds = {0.08}},
             {.name = "a seam on a beam's edge",
              .scene = halves,
-             .trial = over_seam,
+             .trial = at_a_seam,
              .truth = seam_law,
              .bounds = {0.02}}};
 }

@@ -37,10 +37,17 @@ class Greys:
 
     def around(self, box):
         """The median grey around a box (left, right, top, bottom), as wide as half of it to each side, and how far the
-        darkest tenth lies below it: so far grain alone rises above it, too. Bright things nearby do not matter."""
+        darkest tenth lies below it: so far grain alone rises above it, too. Bright things nearby do not matter, nor does
+        a slope of the grey, such as that towards the edge of a beam: half of it is taken from each side."""
         greys, bare = self.within(box, (max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)))
-        low, median = np.quantile(greys[bare], (0.1, 0.5)).tolist() if bare.any() else (0.0, 0.0)
-        return median, median - low
+        if not bare.any():
+            return 0.0, 0.0
+        own, places = greys[bare].astype(float), np.argwhere(bare)
+        median = float(np.median(own))
+        for at in places.T - np.median(places, 0)[:, None]:
+            sides = [np.median(own[side]) if side.any() else median for side in (at < 0, at > 0)]
+            own -= (sides[1] - sides[0]) * at / max(1.0, 2 * np.abs(at).mean())
+        return median, median - float(np.quantile(own, 0.1))
 
     def difference(self, mask, box, shadow):
         """By how many greys the brightest tenth of a mask is above its surroundings and their grain, or the mean of it or
