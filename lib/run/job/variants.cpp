@@ -95,6 +95,30 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& 
     return std::nullopt;  // run_job() says what is wrong
 }
 
+/// The variants of the shard that are to be rendered; their objects find room. Counts the pings of
+/// the others as skipped.
+std::vector<int> unfinished(const Variants& variants, const RenderOptions& options,
+                            SceneStore& models, RenderSummary& all) {
+    std::vector<int> todo;
+    for (int i = options.shard; i < variants.size(); i += options.shards) {
+        const Mission variant = variants[i];
+        const auto pings =
+            options.files && !options.overwrite ? finished_pings(variant, models) : std::nullopt;
+        all.skipped += pings.value_or(0);
+        if (pings) continue;
+        todo.push_back(i);
+        require_places(variant, models);
+    }
+    return todo;
+}
+
+void add_warnings(const Mission& variant, std::vector<Warning> found, RenderSummary& all) {
+    for (Warning& warning : found) {
+        warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
+        all.warnings.push_back(std::move(warning));
+    }
+}
+
 }  // namespace
 
 Json describe_variants(const Mission& mission, const Variants& variants) {
@@ -186,16 +210,7 @@ RenderSummary run_variants(const Mission& mission, const Variants& variants,
     if (options.files) inspect_variants(folder, json, variants, options.overwrite);
     RenderSummary all;
     SceneStore models;
-    std::vector<int> todo;
-    for (int i = options.shard; i < variants.size(); i += options.shards) {
-        const Mission variant = variants[i];
-        const auto pings =
-            options.files && !options.overwrite ? finished_pings(variant, models) : std::nullopt;
-        all.skipped += pings.value_or(0);
-        if (pings) continue;
-        todo.push_back(i);
-        require_places(variant, models);
-    }
+    const std::vector<int> todo = unfinished(variants, options, models, all);
     std::optional<ShardLock> lock;
     const auto enter = [&] {
         lock.emplace(folder, options.shard, options.shards);
@@ -230,13 +245,8 @@ RenderSummary run_variants(const Mission& mission, const Variants& variants,
         all.complete = all.complete && one.complete;
         all.stopped = one.stopped;
         all.unlocked = all.unlocked || one.unlocked;
-        for (std::vector<Warning> found :
-             {one.warnings, image_warnings(variant, assembly, one.sensors)}) {
-            for (Warning& warning : found) {
-                warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
-                all.warnings.push_back(std::move(warning));
-            }
-        }
+        add_warnings(variant, one.warnings, all);
+        add_warnings(variant, image_warnings(variant, assembly, one.sensors), all);
         if (progress) progress(k + 1, todo.size());
     }
     if (options.files) {
