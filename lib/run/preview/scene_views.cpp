@@ -204,6 +204,7 @@ std::vector<float> heights_below(const VisibilityEngine& engine, const Vector3d&
     std::vector<Intersection> met(rays.size());
     engine.intersect({Eigen::Quaterniond::Identity(), vehicle}, rays, met);
     std::vector<float> heights;
+    heights.reserve(met.size());
     for (const Intersection& one : met) {
         heights.push_back(std::isfinite(one.distance_m)
                               ? static_cast<float>(vehicle.z()) - one.distance_m
