@@ -48,10 +48,10 @@ enum class Durable { no, yes };
 void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
     Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (file.get() < 0) throw_errno("cannot write", path);
-    if (!move_all(bytes.size(), [&](std::size_t done) {
-            return ::write(file.get(), bytes.data() + done, bytes.size() - done);
-        }))
-        throw_errno("cannot write", path);
+    const auto put = move_all(bytes.size(), [&](std::size_t done) {
+        return ::write(file.get(), bytes.data() + done, bytes.size() - done);
+    });
+    if (put != bytes.size()) throw_errno("cannot write", path);
     if (durable == Durable::yes && ::fsync(file.get()) != 0) throw_errno("cannot write", path);
     if (!file.close()) throw_errno("cannot write", path);
 }

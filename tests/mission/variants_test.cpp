@@ -141,6 +141,33 @@ TEST_CASE("variants are missions with other seeds and values") {
     CHECK(draw({"seed=4"})[1].sensors[0].noise != four[1].sensors[0].noise);
 }
 
+// Factors of 2 and 3 alone, so each value names what it was multiplied from.
+TEST_CASE(
+    "variants: a scale multiplies what other rules have drawn, else the mission's own value") {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path / "m.yaml";
+    const std::string scale =
+        "  - {key: sensors.fls.noise.add_sigma, scale: [2, 2]}\n"
+        "  - {key: water.density_kg_m3, scale: [1.02, 1.02]}\n";
+    const auto variants_of = [&](const std::string& rules) {
+        write_file(file, smallest_mission + "    noise: {add_sigma: 0.1}\nvariants: 12\nvary:\n" +
+                             rules + scale);
+        const MissionSource source{file, folder.path, {}};
+        return Variants(load_mission(source, sonar_keys()), source, sonar_keys());
+    };
+    const Variants own = variants_of("");
+    CHECK(own[3].sensors[0].noise.add_sigma == 0.2);
+    CHECK(own[3].water.density_kg_m3 == test::approx(1.02 * WaterConfig{}.density_kg_m3));
+    const Variants drawn =
+        variants_of("  - {key: sensors.fls.noise, choice: [{add_sigma: 0.3}, {add_sigma: 0.5}]}\n");
+    std::set<double> found;
+    for (int i = 0; i < drawn.size(); ++i) {
+        found.insert(drawn[i].sensors[0].noise.add_sigma);
+        CHECK(drawn.drawn(i) == drawn[i].variant.drawn);
+    }
+    CHECK(found == std::set<double>{0.6, 1.0});
+}
+
 TEST_SUITE_END();
 
 }  // namespace sonarsim

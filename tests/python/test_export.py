@@ -9,6 +9,7 @@ import numpy as np
 import tool
 from PIL import Image
 from sonarsim.data import open_dataset
+from sonarsim.export.stand_out import Greys
 from tool import counts_of, disc, mask_of
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
@@ -131,6 +132,22 @@ class Export(tool.ToolTest):
             self.assertEqual({one["instance_id"]: one["bbox"] for one in found}, expected, words)
         self.export(self.out, "--format", "coco", "--faint", "crowd", "--min-pixels", "40")
         self.assertEqual([one["iscrowd"] for one in self.coco()[1]["fls-000000.png"]], [0, 1])
+
+    def test_a_slope_of_the_grey_hides_nothing(self):
+        """On a ramp of 160 greys and noise of 6, a patch 30 brighter is visible, one 3 brighter is not, at any slope."""
+        noise = 110 + np.random.default_rng(3).normal(0, 6, (120, 120))
+        ramp = np.linspace(-80, 80, 120)
+        box = (40, 80, 40, 80)
+        mask = np.add.outer(np.arange(40, 80) * 120, np.arange(40, 80)).ravel()
+        for slope in (np.zeros((120, 120)), ramp[:, None] + 0 * ramp, ramp + 0 * ramp[:, None], 0.5 * np.add.outer(ramp, -ramp)):
+            found = []
+            for brighter in (30, 3):
+                grey = noise + slope
+                grey[40:80, 40:80] += brighter
+                greys = Greys(grey.clip(1, 255).astype(np.uint8), [mask], [])
+                found.append(greys.difference(mask, box, None))
+            self.assertGreater(found[0], 12)
+            self.assertLess(found[1], 12)
 
     def test_objects_that_no_eye_sees(self):
         """Objects that add 8 greys to a noise of 34 are faint, dark ones are not; all formats agree on it."""

@@ -41,7 +41,8 @@ std::string scaled(const VaryConfig& rule, const std::string& factor, const Yaml
                                      printable(rule.key) + "' is not");
 }
 
-/// True if a rule without `scale` may change the value that a rule with `scale` multiplies.
+/// True if a rule without `scale` may change the value that a rule with `scale` multiplies: by
+/// drawing it, a section around it, or what its default follows from.
 bool may_change(const VaryConfig& rule, const VaryConfig& scaled) {
     return scaled.key.starts_with(rule.key) || rule.key.ends_with("preset") ||
            rule.key.ends_with("kind") || rule.key.ends_with("model");

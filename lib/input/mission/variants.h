@@ -47,8 +47,8 @@ class Variants {
     MissionSource source_;
     SonarKeyTable sonars_;
     YamlNode whole_;
-    std::optional<YamlNode>
-        own_;  ///< the values that rules with `scale` multiply, if no rule changes them
+    /// The values that rules with `scale` multiply; empty if another rule may change them.
+    std::optional<YamlNode> own_;
     Variant objects_;
 };
 

@@ -90,8 +90,10 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     return {pose, error, truth.noise};
 }
 
-/// True if the first ping was measured and the noise of its reference is far above the goal.
+/// True if the first ping could not be measured, and others of as many bins will not be either.
 bool is_hopeless(const std::optional<MeasuredError>& first, const Mission& mission) {
+    // All rays that are allowed lower the noise of a first round by at most 13 (noise_by()), and it
+    // must be below half of the goal.
     constexpr double far_above = 10.0;
     return first && !first->pings[0].relative_l1 &&
            first->pings[0].noise > far_above * mission.accuracy.relative_l1;

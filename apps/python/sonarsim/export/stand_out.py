@@ -35,26 +35,39 @@ class Greys:
                  slice(left - window[1].start, right - window[1].start))
         return greys[inner], bare[inner]
 
-    def around(self, box):
-        """The median grey around a box (left, right, top, bottom), as wide as half of it to each side, and how far the
-        darkest tenth lies below it: so far grain alone rises above it, too. Bright things nearby do not matter, nor does
-        a slope of the grey, such as that towards the edge of a beam: half of it is taken from each side."""
-        greys, bare = self.within(box, (max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)))
+    def around(self, box, even):
+        """Of the greys around a box (left, right, top, bottom), as wide as half of it to each side: the median, its slope
+        by row and column, where it holds, and how far the darkest tenth lies below it: so far grain alone rises above it,
+        too. The slope goes through the medians of both halves, so bright things nearby do not matter; 0 if not `even`."""
+        margin = max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)
+        greys, bare = self.within(box, margin)
         if not bare.any():
-            return 0.0, 0.0
-        own, places = greys[bare].astype(float), np.argwhere(bare)
-        median = float(np.median(own))
-        for at in places.T - np.median(places, 0)[:, None]:
-            sides = [np.median(own[side]) if side.any() else median for side in (at < 0, at > 0)]
-            own -= (sides[1] - sides[0]) * at / max(1.0, 2 * np.abs(at).mean())
-        return median, median - float(np.quantile(own, 0.1))
+            return 0.0, np.zeros(2), np.zeros(2), 0.0
+        places = np.argwhere(bare) + (max(0, box[2] - margin[1]), max(0, box[0] - margin[0]))
+        own, middle = greys[bare].astype(float), np.median(places, 0)
+        median, slope = float(np.median(own)), np.zeros(2)
+        for axis, at in enumerate((places - middle).T if even else ()):
+            if (at < 0).any() and (at > 0).any():
+                slope[axis] = (np.median(own[at > 0]) - np.median(own[at < 0])) / (at[at > 0].mean() - at[at < 0].mean())
+        return median, slope, middle, median - float(np.quantile(own - (places - middle) @ slope, 0.1))
+
+    def flat(self, box, rows, columns, around):
+        """The greys at places of a box without the slope around it."""
+        _, slope, middle, _ = around
+        return self.within(box)[0][rows - box[2], columns - box[0]] - (np.column_stack((rows, columns)) - middle) @ slope
 
     def difference(self, mask, box, shadow):
         """By how many greys the brightest tenth of a mask is above its surroundings and their grain, or the mean of it or
-        of its shadow below these; as it looks on middle grey, since grain grows with the grey."""
+        of its shadow below these; as it looks on middle grey, since grain grows with the grey. An eye takes off an even
+        slope of the surroundings, but not a step: the larger of both."""
         columns, rows = np.divmod(mask, len(self.grey))
-        own, (median, grain) = self.within(box)[0][rows - box[2], columns - box[0]], self.around(box)
-        found = [np.quantile(own, 0.9) - median - grain, median - own.mean()]
-        if shadow:
-            found.append(self.around(shadow)[0] - self.within(shadow)[0].mean())
+        found = []
+        for even in (False, True):
+            around = median, _, _, grain = self.around(box, even)
+            own = self.flat(box, rows, columns, around)
+            found += [np.quantile(own, 0.9) - median - grain, median - own.mean()]
+            if shadow:
+                around = self.around(shadow, even)
+                places = (one.ravel() for one in np.mgrid[shadow[2]:shadow[3], shadow[0]:shadow[1]])
+                found.append(around[0] - self.flat(shadow, *places, around).mean())
         return float(max(found)) * 2 * MIDDLE / (MIDDLE + median)
