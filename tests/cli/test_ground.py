@@ -89,6 +89,9 @@ class Heightmap(Composed):
         for bins, warned in ((356, True), (142, False)):
             result = self.succeeds("validate", "mission.yaml", "--set", f"sensors.fls.range_bins={bins}")
             self.assertEqual("W37 scene.heightmap: its cells of 0.25 m are 10 times" in result.stderr, warned)
+            cure = self.succeeds("validate", "mission.yaml", "--set", f"sensors.fls.range_bins={bins}",
+                                 "--set", "scene.heightmap.cell_m=0.101")
+            self.assertNotIn("W37", cure.stderr)
 
     def test_its_name_is_its_own(self):
         """Labels and maps find the ground by its name: a node of the scene's file gets another."""

@@ -77,6 +77,56 @@ TEST_CASE("outline: half a cell around a body, filled, and one piece for a conti
     CHECK(other.text(outlined(other.frame, other.ids)) == other.text(other.ids));
 }
 
+TEST_CASE("outline: a compact body is convex, an open one is not, a ring at the border is closed") {
+    const DrawnIds notched({"......", ".1111.", ".11...", ".1111.", "......"});
+    CHECK(notched.text(outlined(notched.frame, notched.ids)) ==
+          Lines{"......", ".1111.", ".1111.", ".1111.", "......"});
+    const DrawnIds hook({"..........", ".1........", ".1........", ".1........", ".1........",
+                         ".1........", ".11111111.", ".........."});
+    CHECK(hook.text(outlined(hook.frame, hook.ids)) == hook.text(hook.ids));
+    const DrawnIds cut({"1......1", "1......1", "1......1", "11....11", ".111111."});
+    CHECK(cut.text(outlined(cut.frame, cut.ids)) ==
+          Lines{"11111111", "11111111", "11111111", "11111111", ".111111."});
+}
+
+/// The ids of a fan's bins whose middles lie in a bar of the plane, along `angle`, at the depth of
+/// 50 bins; `gap`: half the length of a piece that is missing of its far half.
+DrawnIds bar_in_fan(const MaskFrame& frame, double angle, double gap) {
+    DrawnIds bar(std::vector<std::string>(frame.lines, std::string(frame.bins, '.')));
+    bar.frame = frame;
+    for (int line = 0; line < frame.lines; ++line) {
+        const SinCos a = sincos((line + 0.5 - 0.5 * frame.lines) * frame.beam_rad);
+        for (int bin = 0; bin < frame.bins; ++bin) {
+            const double range = frame.first_bin + bin + 0.5;
+            const SinCos turn = sincos(angle);
+            const double x = range * a.sin;
+            const double y = range * a.cos - frame.first_bin - 50.0;
+            const double along = turn.cos * x + turn.sin * y;
+            const double across = turn.cos * y - turn.sin * x;
+            const bool inside = std::fabs(along) < 40.0 && std::fabs(across) < 6.0;
+            const bool missing = std::fabs(along) < gap && across > 0.0;
+            if (inside && !missing) bar.ids[static_cast<std::size_t>(line) * frame.bins + bin] = 1;
+        }
+    }
+    return bar;
+}
+
+// Straight in the plane of the picture: across a fan of 60 degrees the range of a bar changes by
+// 0.15 of itself, three times its width.
+TEST_CASE("outline: a hull is straight in the plane of a fan") {
+    const MaskFrame frame{60, 120, {}, radians(1.0), 60.0};
+    for (const double angle : {-0.5, 0.0, 0.7}) {
+        const DrawnIds whole = bar_in_fan(frame, angle, 0.0);
+        const DrawnIds broken = bar_in_fan(frame, angle, 10.0);
+        const Ids drawn = outlined(frame, broken.ids);
+        int different = 0;
+        for (std::size_t k = 0; k < drawn.size(); ++k)
+            different += drawn[k] != whole.ids[k] ? 1 : 0;
+        CAPTURE(angle);
+        CHECK(different < 0.04 * static_cast<double>(std::ranges::count(whole.ids, 1)));
+    }
+}
+
 TEST_CASE("silhouette: an object has the shadow behind it") {
     const DrawnIds drawn({".......", ".11....", ".11....", "......."});
     const DrawnIds shadow({".......", "...111.", "....112", "....11."});

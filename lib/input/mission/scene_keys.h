@@ -113,6 +113,7 @@ struct AreaConfig {
 
 /// An image whose pixels are heights, which becomes the bottom.
 struct HeightmapConfig : AppliedMapConfig {
+    double cell_m = 0.0;        ///< longest side of the surface's cells; 0: that of the pixels
     double height_scale = 1.0;  ///< metres of a step of the pixels' values
     double height_offset_m = 0.0;
     std::string material;
@@ -269,6 +270,8 @@ void describe(Visitor& v, HeightmapConfig& c) {
            "whose first row is the north",
            required);
     describe_image_place(v, c);
+    v.number("cell_m", c.cell_m, between(0, 1e6),
+             "cells of at most this side, by cubic interpolation of the heights; 0: the pixels");
     v.number("height_scale", c.height_scale, {-largest_scale, largest_scale},
              "metres for each step of the pixels' values; -1 for depths");
     v.number("height_offset_m", c.height_offset_m, any_position_m,

@@ -20,6 +20,9 @@ struct HeightmapRule {
     static constexpr double unlimited = std::numeric_limits<double>::infinity();
     /// The size of a pixel; the south-west corner lies at (0, 0). 0: the file places its pixels.
     double pixel_m = 0.0;
+    /// The longest side of the surface's cells, between whose pixels it is cubic. 0: those of the
+    /// pixels.
+    double cell_m = 0.0;
     /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
     /// If it lies outside the map, all is read.
     std::array<double, 4> window{-unlimited, -unlimited, unlimited, unlimited};

@@ -21,8 +21,9 @@ Ids without_background(Ids ids, const SceneObjects& objects) {
 }
 
 /// The outlines of a ping; in a record, which is drawn in its picture, the bodies.
-Ids find_outlines(const LabelPlan& plan, const EchoModelInfo& info, const PingLabels& labels) {
-    const MaskFrame frame{labels.beams, labels.range_bins, info.cell};
+Ids find_outlines(const LabelPlan& plan, const PingSettings& settings, const PingLabels& labels) {
+    const EchoModelInfo& info = settings.model->info;
+    const MaskFrame frame = frame_of(settings.view, info.cell);
     std::vector<float> noise = info.mean_noise;
     for (std::size_t i = 0; i < noise.size(); ++i)
         noise[i] = info.echo_gain.empty() ? 0.0F : noise[i] / info.echo_gain[i];
@@ -90,11 +91,11 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
     if (request.outlines)
-        out.bins.silhouette = find_outlines(plan, sonar.settings.model->info, out.bins);
+        out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);
     if (plan.mask != MaskKind::echo) {
-        const MaskFrame frame{out.bins.beams, out.bins.range_bins, sonar.settings.model->info.cell};
+        const MaskFrame frame = frame_of(sonar.settings.view, sonar.settings.model->info.cell);
         mask = with_shadows(frame, mask, out.bins.object_shadow, plan.has_shadow);
     }
     out.polar = object_masks(mask, out.bins.range_bins);

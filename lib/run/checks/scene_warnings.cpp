@@ -69,7 +69,7 @@ void judge_heightmap(const Assembly& assembly, std::vector<Warning>& out) {
     const double cell_m = cell_of_heightmap_m(assembly);
     if (cell_m <= max_bins * bin_m) return;
     out.push_back(make_warning(WarningCode::heightmap_facets, "scene.heightmap", cell_m, bin_m,
-                               cell_m / bin_m));
+                               cell_m / bin_m, 0.5 * max_bins * bin_m));
 }
 
 /// The number of triangles of a scene; a mesh with copies counts once.

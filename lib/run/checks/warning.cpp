@@ -88,8 +88,7 @@ constexpr WarningText table[] = {
     {WarningCode::heightmap_facets,
      "its cells of {0:.3g} m are {2:.0f} times as long as the range bins of {1:.3g} m, "
      "so that images show its flat facets",
-     "interpolate the map smoothly onto smaller cells before, as by gdalwarp -tr {1:.3g} "
-     "{1:.3g} -r cubicspline, or take fewer range bins",
+     "cell_m: {3:.3g} interpolates it smoothly; or take fewer range bins",
      "cells above eight range bins of a sonar"},
     {WarningCode::azimuth_in_radians,
      "its azimuth_deg is {0:.4g}, and {0:.4g} radians are {1:.4g} degrees",

@@ -5,6 +5,12 @@
 
 namespace sonarsim {
 
+MaskFrame frame_of(const View& view, const ResolutionCell& cell) {
+    const bool is_fan = view.shape == ViewShape::fan;
+    return {view.beams, view.range_bins, cell, is_fan ? view.azimuth_rad / view.beams : 0.0,
+            is_fan ? view.range_min_m / view.bin_m() : 0.0};
+}
+
 void MaskWindow::sum_within(const CellReach& reach) {
     const auto along = [&](int count, int stride, int most) {
         const std::vector<float> from = values;

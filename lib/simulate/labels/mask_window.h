@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulate/trace/echo_model.h"
+#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 
@@ -16,7 +17,12 @@ struct MaskFrame {
     int lines = 0;
     int bins = 0;
     ResolutionCell cell;
+    double beam_rad = 0.0;   ///< angle between lines; 0: they are parallel
+    double first_bin = 0.0;  ///< bins from where the lines of a fan meet to the first
 };
+
+/// The frame of a ping's image.
+MaskFrame frame_of(const View& view, const ResolutionCell& cell);
 
 /// Bins on either side of the middle of a cell.
 struct CellReach {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "simulate/labels/outline_hull.h"
+
 namespace sonarsim {
 
 namespace {
@@ -97,6 +99,7 @@ Ids outlined(const MaskFrame& frame, const Ids& ids) {
         tidy(shape, reach, [&](const std::vector<int>& piece) {
             return static_cast<float>(piece.size()) >= half_cell.count();
         });
+        fill_hulls(frame, shape);
         shape.for_each(frame, [&](float value, std::size_t k) {
             if (value != 0.0F && (ids[k] == 0 || ids[k] == object) && out[k] == 0) out[k] = object;
         });
@@ -104,8 +107,7 @@ Ids outlined(const MaskFrame& frame, const Ids& ids) {
     return out;
 }
 
-void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
-                        Ids& ids) {
+void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible, Ids& ids) {
     constexpr float found = 2.0F;
     for (auto& [id, shape] : windows_of(frame, CellReach({}), ids)) {
         const std::uint16_t object = id;

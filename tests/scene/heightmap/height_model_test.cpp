@@ -2,6 +2,7 @@
 
 #include "core/file.h"
 #include "input/scene/gltf/load.h"
+#include "input/scene/heightmap/height_grid.h"
 #include "input/scene/placing/bottom.h"
 #include "output/format/geotiff.h"
 #include "support/test.h"
@@ -118,6 +119,45 @@ TEST_CASE("a window of a heightmap is a part of its surface") {
     // A window outside the map leaves all of it.
     const MapFile beside(heights, 20, place, {.window = std::array{0.0, 0.0, 9.0, 9.0}});
     CHECK(beside.surface().triangles.size() == whole.surface().triangles.size());
+}
+
+// Cubic convolution is exact for parabolas; where a neighbour is missing the surface goes on
+// straight, so that a plane is exact everywhere.
+TEST_CASE("cells of a heightmap are divided by cubic interpolation") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> draw(-1.0F, 1.0F);
+    for (int k = 0; k < 20; ++k) {
+        const float a = draw(random), b = draw(random), c = k % 2 == 0 ? 0.0F : draw(random);
+        const auto height = [&](float x, float y) { return a * x + b * y + c * (x * x + x * y); };
+        HeightGrid grid{6, 5, {}};
+        for (int row = 0; row < 5; ++row) {
+            for (int column = 0; column < 6; ++column)
+                grid.values.push_back(height(static_cast<float>(column), static_cast<float>(row)));
+        }
+        const HeightGrid fine = grid.interpolated(4, 3);
+        REQUIRE(fine.values.size() == 21 * 13);
+        for (std::size_t at = 0; at < fine.values.size(); ++at) {
+            const float x = static_cast<float>(at % 21) / 4.0F;
+            const float y = static_cast<float>(at / 21) / 3.0F;
+            const bool inside = x >= 1.0F && x <= 4.0F && y >= 1.0F && y <= 3.0F;
+            if (inside || c == 0.0F) CHECK(std::fabs(fine.values[at] - height(x, y)) < 1e-5F);
+        }
+    }
+}
+
+TEST_CASE("cell_m makes a heightmap's cells shorter and keeps its heights and holes") {
+    std::vector<float> heights(36, 1.0F);
+    heights[14] = 3.0F;
+    heights[35] = unknown;
+    const MapPlace place{.west_m = 0, .north_m = 12, .cell_m = 2};
+    const MapFile map(heights, 6, place, {.cell_m = 0.67});
+    const Surface surface = map.surface();
+    // Three parts to a pixel; of the last pixel's cell the other diagonal leaves one small triangle.
+    CHECK(surface.triangles.size() == 2 * (15 * 15 - 9) + 1);
+    CHECK(has_vertex(surface, {5, 7, 3}));
+    CHECK(upward_area(surface) == test::approx(96.0 + 2.0 / 9.0).epsilon(1e-6));
+    CHECK_THROWS_WITH_AS((MapFile(heights, 6, place, {.cell_m = 1e-3}).surface()),
+                         doctest::Contains("make cell_m longer"), InputError);
 }
 
 TEST_CASE("values that are no heights are refused with their place") {

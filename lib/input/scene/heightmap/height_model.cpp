@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "input/scene/heightmap/height_grid.h"
 #include "input/scene/images/image_place.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/model_data.h"
@@ -25,13 +26,14 @@ constexpr std::size_t max_heights = std::size_t{1} << 25;
 
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
-std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector<bool>& known,
-                                            bool mirrored) {
-    const std::size_t height = known.size() / width;
+std::vector<std::uint32_t> corners_of_cells(const HeightGrid& heights, bool mirrored) {
+    const std::size_t width = heights.columns;
+    const std::size_t height = heights.rows;
+    const auto known = [&](std::size_t k) { return !std::isnan(heights.values[k]); };
     std::vector<std::uint32_t> corners;
     corners.reserve(6 * (width - 1) * (height - 1));
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-        if (!known[a] || !known[b] || !known[c]) return;
+        if (!known(a) || !known(b) || !known(c)) return;
         if (mirrored) std::swap(b, c);
         for (const std::size_t corner : {a, b, c})
             corners.push_back(static_cast<std::uint32_t>(corner));
@@ -40,7 +42,7 @@ std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector
         for (std::size_t column = 0; column + 1 < width; ++column) {
             const std::size_t north_west = row * width + column;
             const std::size_t south_west = north_west + width;
-            if (known[north_west] && known[south_west + 1]) {
+            if (known(north_west) && known(south_west + 1)) {
                 add(north_west, south_west, south_west + 1);
                 add(north_west, south_west + 1, north_west + 1);
             } else {  // the other diagonal may make a triangle
@@ -50,6 +52,39 @@ std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector
         }
     }
     return corners;
+}
+
+/// The parts of a pixel's side that are at most `cell_m` long; 0: the pixel is one part.
+std::size_t parts_of_cell(double pixel_m, double cell_m) {
+    constexpr double rounding = 1e-9;
+    if (cell_m == 0.0) return 1;
+    const double parts = std::ceil(std::fabs(pixel_m) / cell_m - rounding);
+    return static_cast<std::size_t>(std::clamp(parts, 1.0, static_cast<double>(max_heights)));
+}
+
+void require_room(const HeightGrid& heights, std::size_t across, std::size_t down,
+                  const Location& where) {
+    const double columns = static_cast<double>(heights.columns) * static_cast<double>(across);
+    const double rows = static_cast<double>(heights.rows) * static_cast<double>(down);
+    if (columns * rows <= static_cast<double>(max_heights)) return;
+    throw InputError(where, fmt::format("scene.heightmap.cell_m makes {:.0f} x {:.0f} heights of "
+                                        "it, and at most {} have room; make cell_m longer",
+                                        columns, rows, max_heights));
+}
+
+/// (column, row, value) of each height.
+std::vector<float> positions_of(const HeightGrid& heights, const PixelWindow& window, float across,
+                                float down) {
+    std::vector<float> positions;
+    positions.reserve(3 * heights.values.size());
+    for (std::size_t k = 0; k < heights.values.size(); ++k) {
+        const auto column = static_cast<float>(k % heights.columns);
+        const auto row = static_cast<float>(k / heights.columns);
+        for (const float x : {static_cast<float>(window.columns[0]) + column / across,
+                              static_cast<float>(window.rows[0]) + row / down, heights.values[k]})
+            positions.push_back(x);
+    }
+    return positions;
 }
 
 void require_heights(const Image& image, const Location& where) {
@@ -85,25 +120,27 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
                                              {Eigen::Vector2d(rule.window[0], rule.window[1]),
                                               Eigen::Vector2d(rule.window[2], rule.window[3])},
                                              max_heights, where);
-    std::vector<float> positions;
-    std::vector<bool> known;
-    positions.reserve(3 * window.width() * window.height());
-    known.reserve(window.width() * window.height());
+    HeightGrid heights{window.width(), window.height(), {}};
+    heights.values.reserve(heights.columns * heights.rows);
     window.for_each([&](int row, int column) {
         const float value = *image.pixel(row, column);
-        known.push_back(!std::isnan(value));
-        if (known.back() && is_odd(value, image)) {
+        if (!std::isnan(value) && is_odd(value, image)) {
             throw InputError(
                 where,
                 fmt::format("row {}, column {}: {} looks like the mark of an unknown "
                             "height; mark it in the file: gdal_translate -a_nodata {}",
                             row, column, number_text(double{value}), number_text(double{value})));
         }
-        for (const float x : {static_cast<float>(column), static_cast<float>(row), value})
-            positions.push_back(x);
+        heights.values.push_back(value);
     });
+    const std::size_t across = parts_of_cell(grid.column_m, rule.cell_m);
+    const std::size_t down = parts_of_cell(grid.row_m, rule.cell_m);
+    require_room(heights, across, down, where);
+    heights = heights.interpolated(across, down);
+    const std::vector<float> positions =
+        positions_of(heights, window, static_cast<float>(across), static_cast<float>(down));
     const std::vector<std::uint32_t> corners =
-        corners_of_cells(window.width(), known, grid.column_m * grid.row_m > 0.0);
+        corners_of_cells(heights, grid.column_m * grid.row_m > 0.0);
     if (corners.empty()) throw InputError(where, "has no three neighbours with known heights");
     tinygltf::Model model;
     const int mesh = add_mesh(model, "heightmap");

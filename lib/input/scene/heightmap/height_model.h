@@ -11,7 +11,8 @@ namespace sonarsim {
 /// Reads an image of heights as tinygltf's structs, as if it were a glTF with z up and one node
 /// "heightmap". Only the rule's window of a larger map is read. A vertex stands at the centre of
 /// each pixel; four neighbours make two triangles that share the edge from the first row and column
-/// to the next row and column. A triangle needs three known heights. Positions are (column, row,
+/// to the next row and column. A triangle needs three known heights. With the rule's cell_m there
+/// are more vertices between the pixels (HeightGrid::interpolated). Positions are (column, row,
 /// value); the node's matrix turns them into the map's coordinates, so that maps far from their
 /// origin lose nothing.
 /// InputError as read_image(), for an image of several channels, one whose place is not known or in

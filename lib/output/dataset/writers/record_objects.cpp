@@ -222,7 +222,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         const std::size_t begin = sweep * static_cast<std::size_t>(display.lines);
         const std::vector<ObjectMask> shadows = masks(display.shadow);
         RecordValues drawn = display;
-        const MaskFrame frame{display.lines, display.bins, source.cell()};
+        const MaskFrame frame = frame_of(whole.settings.view, source.cell());
         drawn.object = source.drawn(frame, display.object);
         const Ids mask_ids = with_shadows(frame, drawn.object, display.shadow, source.has_shadow());
         std::vector<Json> objects;

@@ -14,12 +14,15 @@ Samples StripsEngine::visible_surface(const View& view, const Pose& T_world_sens
     const std::vector<std::uint32_t> clusters = clusters_in(view, T_world_sensor);
     Samples samples;
     samples.beam_begin.assign(view.beams + 1, 0);
+    const std::size_t expected = last_samples_.load(std::memory_order_relaxed);
+    samples.items.reserve(expected + expected / 8);
     for (const ColumnFrame& frame : strip_frames(view)) {
         const StripTriangles triangles =
             strip_triangles(mesh_, clusters, frame, pose, rule.range_max_m);
         scan(frame, triangles, pose, rule, samples);
         samples.dropped += triangles.dropped;
     }
+    last_samples_.store(samples.items.size(), std::memory_order_relaxed);
     return samples;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <vector>
 
 #include "input/scene/scene.h"
@@ -28,6 +30,8 @@ class StripsEngine final : public VisibilityEngine {
               const StripRule& rule, Samples& samples) const;
 
     ClusterMesh mesh_;
+    /// Samples of the last ping, for which room is reserved: growing costs a third of the time.
+    mutable std::atomic<std::size_t> last_samples_{0};
 };
 
 }  // namespace sonarsim
