@@ -18,6 +18,9 @@ measure() { # scene, the name of its report, options of `sonarsim report`
     fi
 }
 
+if [[ " $* " != *" --engines"* ]]; then
+    set -- --engines rays,strips "$@"
+fi
 for scene in ${SCENES:-tank seafloor}; do
     case $scene in
         tank) measure tank tank "$@" ;;
