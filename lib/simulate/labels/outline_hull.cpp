@@ -18,7 +18,7 @@ namespace {
 // The shares of its hull that a shape covers at least: a person draws tyres, bottles and walls to
 // above 0.8 of it, hooks, chains and valves to below 0.6 of it.
 constexpr double min_closed_share = 0.7;
-constexpr double min_open_share = 0.4;  ///< of a ring that the border of the picture cuts
+constexpr double min_open_share = 0.4;  ///< if the border of the picture cuts it open
 
 /// A line of bins in the plane of the picture, in bins: bin i is at origin + i * along.
 struct PictureLine {
