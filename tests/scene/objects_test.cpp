@@ -55,6 +55,7 @@ TEST_CASE("objects: rules that cannot be meant") {
     const Location place{"m.yaml", 7, 3};
     const std::pair<std::vector<ClassRule>, std::string> faulty[] = {
         {{{"boat*", "boat", "", place}}, "no node of the scene fits 'boat*'"},
+        {{{"*.Glas", "pane", "", place, "Glas"}}, "no material of the scene fits 'Glas'"},
         {{{"*", "thing", "", {}}, {"floor", "bottom", "", place}},
          "no node of the scene is left for 'floor'"},
         {{{"ship_hull", "ship", "ship_1", {}}, {"ship_mast", "mast", "ship_1", place}},

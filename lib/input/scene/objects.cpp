@@ -39,11 +39,14 @@ std::vector<const ClassRule*> rule_of_instances(std::span<const NamedInstance> i
             if (!chosen[i]) chosen[i] = &rule;
         }
         if (fits) continue;
-        throw InputError(rule.place,
-                         "no node of the scene " + std::string(taken ? "is left for" : "fits") +
-                             " '" + rule.nodes + "'" +
-                             (taken ? ": rules above it take all that fit"
-                                    : "; `sonarsim inspect` lists the names of its nodes"));
+        const bool by_node = rule.materials.empty();
+        throw InputError(
+            rule.place,
+            std::string("no ") + (by_node ? "node" : "material") + " of the scene " +
+                (taken ? "is left for" : "fits") + " '" + (by_node ? rule.nodes : rule.materials) +
+                "'" +
+                (taken ? ": rules above it take all that fit"
+                       : "; `sonarsim inspect` lists the names of its nodes and materials"));
     }
     return chosen;
 }

@@ -16,7 +16,8 @@ struct ClassRule {
     std::string nodes;  ///< `*` stands for any text, `?` for any one byte
     std::string name;   ///< name of the class
     std::string instance;
-    Location place;  ///< for messages
+    Location place;              ///< for messages
+    std::string materials = {};  ///< the materials that the mission names in place of nodes
 };
 
 /// The objects and classes that labels distinguish. Ids count from 1; a label of 0 means none.

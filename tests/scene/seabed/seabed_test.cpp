@@ -53,13 +53,13 @@ PhiloxKey key_of(std::uint32_t number) {
 }  // namespace
 
 TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(test::sanitized)) {
-    // 28 beds, 6 wavelengths from 1 m to 4 cells, 8 directions each, which lie more than the
+    // 28 beds, 6 wavelengths from 1 m to 12 cells, 8 directions each, which lie more than the
     // window's width apart: each mean of a wavelength has the deviation 1 / sqrt(28 * 8) = 6.7 %.
     constexpr int beds = 28;
     constexpr int wavelengths = 6;
     constexpr int directions = 8;
     using Values = Eigen::Array<double, wavelengths, 1>;
-    test::SeabedRule rule = rule_of_size(4.0);
+    test::SeabedRule rule = rule_of_size(4.0, 0.025);
     rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
     Values ratios = Values::Zero();
     Values logs;
@@ -68,7 +68,7 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
         rule.seed = static_cast<std::uint64_t>(b);
         const Seabed bed = make_seabed(rule);
         for (int n = 0; n < wavelengths; ++n) {
-            const double k = 2.0 * pi / std::pow(0.2, n / (wavelengths - 1.0));
+            const double k = 2.0 * pi / std::pow(0.3, n / (wavelengths - 1.0));
             const double expected =
                 roughness_strength(0.004, 3.0) * std::pow(k * k + corner * corner, -1.5);
             for (int d = 0; d < directions; ++d) {
