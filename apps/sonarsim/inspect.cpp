@@ -17,6 +17,7 @@
 #include "input/scene/placing/standing.h"
 #include "input/scene/summary.h"
 #include "logging.h"
+#include "mission_options.h"
 #include "output/dataset/json.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/placed_files.h"
@@ -137,15 +138,6 @@ Json acoustics_json(const Scene& scene, const MaterialTable& table) {
             {"reflection", power_reflection(row->density_kg_m3, row->sound_speed_m_s, Water{})}};
     }
     return json;
-}
-
-/// The value of a choice that the command line has checked; `fallback` for "".
-template <class T, std::size_t N>
-T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
-    for (const Choice<T>& choice : choices) {
-        if (choice.name == name) return choice.value;
-    }
-    return fallback;
 }
 
 /// Questions about options that the user may have forgotten.

@@ -10,7 +10,7 @@ void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutp
     command.add_option("mission", options.file, "The mission, a YAML file")->required();
     command
         .add_option("--set", options.settings,
-                    "Changes a key of the mission, as in sensors.fls.noise.add_sigma=0.2; may be "
+                    "Changes a key of the mission, as in sensors.fls.range_max_m=20; may be "
                     "given several times")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");

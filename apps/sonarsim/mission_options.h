@@ -36,4 +36,13 @@ Mission load(const MissionOptions& options);
 /// The variants of that mission; empty if it has none.
 Variants load_variants(const MissionOptions& options, const Mission& mission);
 
+/// The value of a choice that the command line has checked; `fallback` for "".
+template <class T, std::size_t N>
+T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
+    for (const Choice<T>& choice : choices) {
+        if (choice.name == name) return choice.value;
+    }
+    return fallback;
+}
+
 }  // namespace sonarsim

@@ -19,6 +19,7 @@
 #include "input/scene/placing/standing.h"
 #include "input/scene/scene.h"
 #include "logging.h"
+#include "mission_options.h"
 #include "run/job/folder.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/sonar/kinds.h"
@@ -107,7 +108,8 @@ struct NewArguments {
     fs::path mesh;
     std::string preset;  ///< "": by the size of the mesh
     std::string bed = "sand";
-    fs::path out;  ///< "": NAME.yaml in the current folder
+    std::string units, up;  ///< "": as the mesh seems to be meant
+    fs::path out;           ///< "": NAME.yaml in the current folder
     LogOptions log;
 };
 
@@ -119,26 +121,35 @@ struct ReadMesh {
     std::vector<std::string> guesses;
 };
 
-/// Reads a mesh in the unit and with the axis that `inspect` asks about. InputError for a file that
-/// is no mesh or has no surface.
-ReadMesh read_as_meant(const fs::path& path) {
+/// Reads a mesh in the unit and with the axis that are given, else those that `inspect` asks about.
+/// InputError for a file that is no mesh or has no surface.
+ReadMesh read_as_meant(const NewArguments& arguments) {
+    const fs::path& path = arguments.mesh;
     ReadMesh mesh;
     SceneFiles models;
+    mesh.config.units = chosen(length_units, arguments.units, mesh.config.units);
+    mesh.config.up = chosen(up_axes, arguments.up, mesh.config.up);
     const PlacedFile as_gltf = file_of(path, mesh.config, {});
     mesh.scene = load_scene_geometry(as_gltf, models);
     if (mesh.scene.triangles.empty()) throw InputError({path.string()}, "has no triangles");
     const double length_m = (mesh.scene.bounds_max - mesh.scene.bounds_min).maxCoeff();
-    const std::string unit = unit_question(length_m, 1.0, usual_range_m, long_object);
-    const std::string up = up_question(as_gltf, surface_of(as_gltf, models));
+    const std::string unit =
+        arguments.units.empty() ? unit_question(length_m, 1.0, usual_range_m, long_object) : "";
+    const std::string up =
+        arguments.up.empty() ? up_question(as_gltf, surface_of(as_gltf, models)) : "";
     if (!unit.empty()) mesh.config.units = LengthUnit::mm;
     if (!up.empty()) mesh.config.up = UpAxis::z;
     if (!unit.empty()) mesh.guesses.push_back("the file is " + unit);
     if (!up.empty()) mesh.guesses.push_back(up);
+    if (up.empty() && arguments.up.empty() && is_mesh_file(path))
+        mesh.guesses.push_back("y points up; if the file's z does, give --up z");
     if (!unit.empty() || is_mesh_file(path))
-        mesh.keys = unit.empty() ? ", units: m" : ", units: mm";
-    if (is_mesh_file(path)) mesh.keys += up.empty() ? ", up: y" : ", up: z";
+        mesh.keys = ", units: " + (!arguments.units.empty() ? arguments.units
+                                   : unit.empty()           ? "m"
+                                                            : "mm");
+    if (is_mesh_file(path)) mesh.keys += mesh.config.up == UpAxis::y ? ", up: y" : ", up: z";
     mesh.config.up_given = true;
-    if (!mesh.guesses.empty())
+    if (!unit.empty() || !up.empty())
         mesh.scene = load_scene_geometry(file_of(path, mesh.config, {}), models);
     return mesh;
 }
@@ -224,7 +235,7 @@ int make_mission(const NewArguments& arguments) {
         if (fs::exists(file))
             throw InputError({file.string()}, "is there already; give another name with --out");
     }
-    const ReadMesh mesh = read_as_meant(arguments.mesh);
+    const ReadMesh mesh = read_as_meant(arguments);
     const double diagonal = (mesh.scene.bounds_max - mesh.scene.bounds_min).norm();
     const Mission first =
         parse_mission(mission_text(arguments, mesh, csv, "", {1.0, 2.0, 0.0, 0.01}), out.string(),
@@ -267,6 +278,14 @@ void add_new(CLI::App& app, int& exit_code) {
                        "An imaging sonar, of configs/sensors or a file (default: an Oculus)");
     command.add_option("--bed", arguments->bed,
                        "The sea bed, of configs/seabeds or a file (default: sand)");
+    command
+        .add_option("--units", arguments->units,
+                    "Unit of the file's lengths, as `units` of a mission (default: a guess)")
+        ->check(CLI::IsMember(names_of(length_units)));
+    command
+        .add_option("--up", arguments->up,
+                    "Axis of the file that points up, as `up` of a mission (default: a guess)")
+        ->check(CLI::IsMember(names_of(up_axes)));
     command
         .add_option("--out", arguments->out,
                     "The mission (default: NAME.yaml in the current folder)")

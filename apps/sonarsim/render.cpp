@@ -244,7 +244,7 @@ void add_render(CLI::App& app, int& exit_code) {
     CLI::App& command = add_command(
         app, "render", "Renders a mission into its dataset, or resumes an interrupted one", "Make",
         {"sonarsim render mission.yaml",
-         "sonarsim render mission.yaml --out out/noisy --set sensors.fls.noise.add_sigma=0.2",
+         "sonarsim render mission.yaml --out out/far --set sensors.fls.range_max_m=20",
          "sonarsim render mission.yaml --shard 2/8 --out out/part2"});
     auto arguments = std::make_shared<RenderArguments>();
     add_mission_options(command, arguments->mission);

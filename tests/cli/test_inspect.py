@@ -89,6 +89,10 @@ class New(Sandbox):
         (self.folder / "cone.yaml").unlink()
         self.assert_refused(self.run_sonarsim("new", "cone.obj"), "cone_materials.csv: is there already")
         self.assertFalse((self.folder / "cone.yaml").exists())
+        self.assert_refused(self.run_sonarsim("render", "cone.obj"), "is a mesh; `sonarsim new cone.obj` writes a mission")
+        printed = self.succeeds("new", "cone.obj", "--out", "cm.yaml", "--units", "cm", "--up", "y").stdout
+        self.assertNotIn("guess       the file", printed)
+        self.assertIn("units: cm, up: y", (self.folder / "cm.yaml").read_text())
         self.succeeds("new", "cone.obj", "--out", "more/cone.yaml", "--preset", "gemini_720is", "--bed", "rippled_sand")
         self.succeeds("validate", "more/cone.yaml")
         self.assertEqual((self.folder / "cone_materials.csv").read_bytes(), whole[self.folder / "cone_materials.csv"])

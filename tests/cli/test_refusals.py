@@ -129,6 +129,8 @@ REFUSED = (
     (edited("kind: imaging", "preset: gemini_720"),
      "mission.yaml:10:13", "did you mean 'gemini_720is'?", "micron", "sensors/NAME.yaml"),
     (edited("kind: imaging", "preset: oculus_m750d_750khz"), "did you mean 'sensors/oculus_m750d_750khz.yaml'?"),
+    (edited("kind: imaging", "kind: sidescan\n    preset: sensors/gemini_720is.yaml"),
+     "mission.yaml:10:11: 'sensors/gemini_720is.yaml' is the preset of a sonar of the kind 'imaging'"),
     (edited("bottom.gltf", "botom.gltf"),
      "botom.gltf: cannot open", "did you mean 'bottom.gltf'?", "mission.yaml:3:3 names it"),
     (edited("mine.gltf", "meshes/mine.gltf"), "there is no folder", "mission.yaml:6:7"),

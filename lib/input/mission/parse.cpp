@@ -146,6 +146,12 @@ Mission parse_mission(std::string_view text, const std::string& file_name,
 
 YamlNode read_mission_document(const MissionSource& source) {
     const std::string name = source.file.string();
+    const std::string ending = in_lower_case(source.file.extension().string());
+    for (const char* const mesh : {".obj", ".stl", ".ply", ".glb", ".gltf"}) {
+        if (!source.text && ending == mesh)
+            throw InputError({name},
+                             "is a mesh; `sonarsim new " + name + "` writes a mission around it");
+    }
     if (source.text) return document_of(*source.text, name, source.overrides, Lines::none);
     return document_of(read_file(source.file, largest_file), name, source.overrides);
 }

@@ -81,6 +81,13 @@ void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder
     const YamlNode* const name = section.find(preset_key);
     if (name == nullptr) return;
     const YamlNode preset = read_preset(*name, base_folder, kind);
+    const YamlNode* const own_kind = section.find("kind");
+    const YamlNode* const its_kind = preset.find("kind");
+    if (own_kind != nullptr && its_kind != nullptr && own_kind->text != its_kind->text) {
+        throw InputError(own_kind->place.location(),
+                         in_quotes(name->text) + " is the preset of a sonar of the kind " +
+                             in_quotes(its_kind->text) + "; leave 'kind' out, or take another");
+    }
     std::erase_if(section.items, [](const YamlNode& item) { return item.key == preset_key; });
     section.implied = false;
     fill_in(section, preset);

@@ -48,7 +48,8 @@ constexpr WarningText table[] = {
     {WarningCode::elevation_too_narrow,
      "in {0} of {1} pings the surface within the range lies only above or below its view, the "
      "nearest at elevations of {2:.0f} to {3:.0f} degrees, and {4:s} is {5:.4g}",
-     "raise {4:s}, or tilt the sonar with mount.rpy_deg", "one blind ping"},
+     "raise {4:s}, or tilt the sonar with mount.rpy_deg (a positive pitch looks down)",
+     "one blind ping"},
     {WarningCode::looks_elsewhere,
      "in {0} of {1} pings there is surface within the range, but nowhere near its view",
      "turn it with mount.rpy_deg or check the trajectory's attitudes; both are in "

@@ -65,7 +65,7 @@ def parse(arguments):
         help="an object is faint if it stands out of its surroundings and their grain by fewer greys, of 255; 0: none is")
     add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")
     add("--split", metavar="train=A,val=B,test=C", help="parts of the trajectory, or of the variants")
-    add("--gap", type=int, default=10, metavar="N", help="poses left out at each border")
+    add("--gap", type=int, metavar="N", help="poses left out at each border (default: a tenth of all, at most 10)")
     add("--rounds", type=int, default=1, metavar="N", help="repetitions of the parts")
     add("--tile", type=tile, metavar="N|WxH", help="cut waterfalls, echograms and sweeps into tiles")
     add("--overlap", type=int, default=0, metavar="N", help="pixels that tiles share")
@@ -80,7 +80,7 @@ def parse(arguments):
     if not options.folders:
         parser.error("name a dataset, then the folder to write")
     for key, (low, high) in LIMITS.items():
-        if not low <= getattr(options, key) <= high:
+        if getattr(options, key) is not None and not low <= getattr(options, key) <= high:
             parser.error(f"--{key.replace('_', '-')} must be a number from {low} to {high}")
     if (options.format == "crops") != (options.pixel_m is not None) or options.pixel_m is not None and (
             not 1e-4 <= options.pixel_m <= 100 or options.tile):

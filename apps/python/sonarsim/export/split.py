@@ -40,8 +40,8 @@ def stretches(shares, count, gap, rounds):
 
 
 def of_poses(shares, poses, gap, rounds):
-    """The part of each pose. ValueError if a part gets none."""
-    parts = stretches(shares, poses, gap, rounds)
+    """The part of each pose. ValueError if a part gets none. `gap`: None for a tenth of the poses, at most 10."""
+    parts = stretches(shares, poses, min(10, poses // 10) if gap is None else gap, rounds)
     for part in shares:
         if part not in parts:
             raise ValueError(f"--split: none of {poses} poses is left for {part!r}; take a smaller --gap, "
