@@ -19,6 +19,7 @@ constexpr std::size_t max_objects = 200;  // the most objects to look for
 constexpr std::size_t max_poses = 20000;  // about the most poses to test for an object
 constexpr std::size_t max_tries = 4;      // the most pings of a sonar to trace for an object
 constexpr std::size_t max_named = 5;
+constexpr double min_object_m = 0.005;  // an object in metres that was read as millimetres
 
 /// A sphere around an object; the frame is the world, or its own if it moves.
 struct Extent {
@@ -156,13 +157,18 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
     const std::vector<Extent> extents = extents_of(scene);
     std::vector<std::string> never_in_view;
     std::vector<std::string> hidden;
+    std::vector<std::string> tiny;
     std::size_t looked_for = 0;
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
         const auto has_seen = [&](const SonarSurvey& sonar) {
             return sonar.visible_m2[instance] > 0.0;
         };
-        if (extents[instance].radius < 0.0) continue;
-        if (!is_wanted(mission, scene, instance) || std::ranges::any_of(sonars, has_seen)) continue;
+        if (extents[instance].radius < 0.0 || !is_wanted(mission, scene, instance)) continue;
+        if (2.0 * extents[instance].radius < min_object_m) {
+            tiny.push_back(scene.instances[instance]);
+            continue;
+        }
+        if (std::ranges::any_of(sonars, has_seen)) continue;
         if (++looked_for > max_objects) continue;
         bool in_view = false;
         bool seen = false;
@@ -191,6 +197,8 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
          "move these into the view of a sonar, or the trajectory towards them");
     warn(hidden, " in view but not seen",
          "these may lie behind, below or within other surface, or be smaller than a beam");
+    warn(tiny, " below 5 mm across, too small to be seen",
+         "check the units and the scale of these");
     return out;
 }
 
