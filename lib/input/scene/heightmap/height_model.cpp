@@ -78,8 +78,9 @@ std::vector<float> positions_of(const HeightGrid& heights, const PixelWindow& wi
     std::vector<float> positions;
     positions.reserve(3 * heights.values.size());
     for (std::size_t k = 0; k < heights.values.size(); ++k) {
+        const std::size_t row_number = k / heights.columns;
         const auto column = static_cast<float>(k % heights.columns);
-        const auto row = static_cast<float>(k / heights.columns);
+        const auto row = static_cast<float>(row_number);
         for (const float x : {static_cast<float>(window.columns[0]) + column / across,
                               static_cast<float>(window.rows[0]) + row / down, heights.values[k]})
             positions.push_back(x);
