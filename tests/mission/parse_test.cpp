@@ -28,8 +28,6 @@ std::string refusal_of_preset(const std::filesystem::path& folder, const std::st
 
 }  // namespace
 
-TEST_SUITE_BEGIN("mission");
-
 TEST_CASE("names and paths of a mission") {
     const Mission mission = parse(smallest_mission);
     CHECK(mission.name == "m");
@@ -156,7 +154,5 @@ TEST_CASE("values that are read: engines, labels, classes, water, sensors in the
     CHECK(mission.sensors[2].name == "A-_9");
     CHECK(reads_back(mission));
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -6,8 +6,6 @@
 
 namespace sonarsim {
 
-TEST_SUITE_BEGIN("mission");
-
 namespace {
 
 constexpr std::uint32_t draws = 20'000;
@@ -167,7 +165,5 @@ TEST_CASE(
     }
     CHECK(found == std::set<double>{0.6, 1.0});
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
-#include "simulate/paper/echoes.h"
 #include "simulate/paper/noise.h"
+
+#include "simulate/paper/echoes.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/patches.h"
@@ -55,8 +56,6 @@ Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("the range noise of an echo does not depend on the echoes next to it") {
     // Alone an echo is the tail of a vector; among others it is part of a whole one or of a tail.
@@ -236,5 +235,3 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
         }
     }
 }
-
-TEST_SUITE_END();

@@ -29,8 +29,6 @@ struct Everything {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("a term left out of an image is a term that the sonar's settings do not have") {
     const Everything all;
     Sonar sonar = make_sonar(all.config, {});
@@ -104,5 +102,3 @@ TEST_CASE("where the surface echoes nothing, an image is that of the multipath a
     }
     CHECK(alone > 10);
 }
-
-TEST_SUITE_END();

@@ -48,8 +48,6 @@ Sonar coarse_sonar(SonarKind kind) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("validation");
-
 TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
     // Derivation in tests/sonar/imaging_test.cpp.
     constexpr float R = 0.7F;
@@ -166,8 +164,7 @@ TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from 
         const View view{radians(60.0), radians(20.0), 0.5, 9.5, 100, 32, 0.03};
         const Reference truth = cast_reference(Caster(scene), scene, view, Pose{},
                                                {.noise = 0.0, .rays_max = 1'000'000});
-        CAPTURE(seed);
-        CAPTURE(truth.noise);
+        CAPTURE_ALL(seed, truth.noise);
         CHECK(truth.noise < 0.02);
         CHECK(std::ranges::count(truth.scored, 1) > 12);
     }
@@ -256,12 +253,8 @@ TEST_CASE("the calibrated reference agrees with the engines") {
         const Ping ping = render_ping(sonar, scene, *make_engine(scene, engine), T_world_vehicle,
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
-        CAPTURE(name_of(kind));
-        CAPTURE(sonar.settings.view.guards.count);
-        CAPTURE(reference.noise);
+        CAPTURE_ALL(name_of(kind), sonar.settings.view.guards.count, reference.noise);
         CHECK(error.relative_l1 < 0.02 + reference.noise);
         CHECK(reference.noise < 0.03);
     }
 }
-
-TEST_SUITE_END();

@@ -19,8 +19,6 @@ SonarConfig profiling() {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("sonar");
-
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
     // The middle of a run of whole bins is off by 0.20 bins on average.
     Scene scene = floor_scene(200.0F, 0.0F, 0.5F);
@@ -121,5 +119,3 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
         CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
     }
 }
-
-TEST_SUITE_END();

@@ -31,8 +31,6 @@ Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("sonar");
-
 TEST_CASE(
     "sidescan: a flat bottom first returns at its altitude, then I = R H / r, on both sides") {
     // v . n = H / r everywhere, whatever the weights. The swath of 170 degrees reaches
@@ -104,5 +102,3 @@ TEST_CASE("sidescan: a target to port is in the left half only; turned round, in
     CHECK(std::fabs(bin_centre(sonar, static_cast<int>(n - 1 - nearest) - 10) -
                     (std::hypot(8.0, H - 1.0) - 0.5)) <= 0.1);
 }
-
-TEST_SUITE_END();

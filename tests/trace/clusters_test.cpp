@@ -36,8 +36,6 @@ Scene corner() {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("clusters keep their limits, and every sample is in one") {
     const View view = fan(60.0, 12.0);
     const Found found = find(tank(), view, clusters_of(0), tank_poses()[0]);
@@ -197,5 +195,3 @@ TEST_CASE("rounding hides nothing, wherever the sonar is and however large the t
         }
     }
 }
-
-TEST_SUITE_END();

@@ -58,8 +58,6 @@ void check_against(const Found& found, const View& view,
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("multipath between two perpendicular walls") {
     // Walls y = a and x = b. Mirrored in the first, the sonar is at s = (0, 2a, 0); the line from
     // there through p_i = (x, a, z) meets x = b at p = s + (b / x) (p_i - s), which turns the x of
@@ -160,5 +158,3 @@ TEST_CASE("a footprint wider than a beam lights all beams that it covers, over a
         CHECK(weight == test::approx(2.0));
     }
 }
-
-TEST_SUITE_END();

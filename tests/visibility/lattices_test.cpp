@@ -6,8 +6,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("lattices");
-
 namespace {
 
 /// The image of a drawn scene by at most `rays`, in two independent halves.
@@ -75,5 +73,3 @@ TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
     for (const Sample& sample : engine->visible_surface(view, Pose{}).items)
         CHECK(sample.position.allFinite());
 }
-
-TEST_SUITE_END();

@@ -30,8 +30,6 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 
 }  // namespace
 
-TEST_SUITE_BEGIN("strips");
-
 TEST_CASE("strips: two materials that meet along an azimuth share the beam as they lie") {
     // A level floor of one material left of an azimuth and of another one right of it: at each
     // range the left part has the share of the beam left of that azimuth.
@@ -159,5 +157,3 @@ TEST_CASE("strips: a cable ends in range where its corners do") {
         }
     }
 }
-
-TEST_SUITE_END();

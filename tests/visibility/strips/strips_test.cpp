@@ -70,8 +70,6 @@ double wall_area(double d, const View& view) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("strips");
-
 TEST_CASE("strips: a wall seen face on has its area, whole or in many triangles") {
     const View view = fan_of_strips();
     for (const int n : {1, 7, 200}) {
@@ -262,5 +260,3 @@ TEST_CASE("strips: drawn lattices are within their error goals") {
         CHECK(mean / count < goal);
     }
 }
-
-TEST_SUITE_END();

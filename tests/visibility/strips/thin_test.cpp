@@ -76,8 +76,6 @@ double worst_beam(const std::vector<float>& image, const Reference& reference, c
 
 }  // namespace
 
-TEST_SUITE_BEGIN("strips");
-
 TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder") {
     // The mean of v . n over the visible half of a cylinder is 2 / pi = 0.64.
     Scene scene = test::empty_scene();
@@ -219,5 +217,3 @@ TEST_CASE("strips: no beam of a drawn lattice is far from brute force at any goa
         }
     }
 }
-
-TEST_SUITE_END();
