@@ -1,6 +1,5 @@
 #include "simulate/assembly/brightness.h"
 
-#include "simulate/assembly/assemble.h"
 #include "simulate/assembly/poses.h"
 #include "support/calibrated.h"
 #include "support/small_mission.h"

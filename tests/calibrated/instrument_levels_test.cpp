@@ -3,7 +3,6 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/model.h"
 #include "simulate/calibrated/range_response.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

@@ -1,6 +1,5 @@
 #include "simulate/calibrated/model.h"
 
-#include "core/elementary.h"
 #include "simulate/calibrated/decibel.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

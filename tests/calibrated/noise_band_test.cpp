@@ -1,7 +1,6 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/filtered_noise.h"
 #include "simulate/calibrated/range_response.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/statistics.h"

@@ -1,5 +1,4 @@
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/form_look.h"
 #include "support/labelled.h"
 #include "support/patches.h"

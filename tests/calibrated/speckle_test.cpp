@@ -1,5 +1,4 @@
 #include "calibrated/preset_fixtures.h"
-#include "core/elementary.h"
 #include "simulate/calibrated/scatterer_search.h"
 #include "support/statistics.h"
 

@@ -2,13 +2,10 @@
 
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/model.h"
 #include "simulate/sonar/setup.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
-#include "support/sonars.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,6 +1,5 @@
 #include "simulate/calibrated/transducer_beams.h"
 
-#include "core/elementary.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/line_array.h"

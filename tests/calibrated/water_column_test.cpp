@@ -2,12 +2,9 @@
 
 #include "calibrated/water_fixtures.h"
 #include "input/mission/mission.h"
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/target_strength.h"
 #include "simulate/calibrated/water.h"
 #include "support/statistics.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/wind_surface.h"
 
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/directivity.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

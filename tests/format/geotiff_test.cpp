@@ -2,7 +2,6 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "core/file.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -5,7 +5,6 @@
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,4 +1,3 @@
-#include "input/mission/parse.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {

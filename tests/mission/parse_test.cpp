@@ -2,7 +2,6 @@
 
 #include "input/mission/preset.h"
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

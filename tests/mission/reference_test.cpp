@@ -1,8 +1,6 @@
 #include "input/mission/reference.h"
 
-#include "input/mission/resolved.h"
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

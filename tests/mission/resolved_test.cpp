@@ -1,7 +1,6 @@
 #include "input/mission/resolved.h"
 
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -1,5 +1,4 @@
 #include "input/mission/files.h"
-#include "input/mission/resolved.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {

@@ -5,7 +5,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/patches.h"
 #include "support/statistics.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

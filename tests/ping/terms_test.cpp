@@ -1,4 +1,3 @@
-#include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"

@@ -1,7 +1,6 @@
 #include "simulate/product/fan_bins.h"
 
 #include "simulate/product/fan.h"
-#include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

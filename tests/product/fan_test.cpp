@@ -1,6 +1,5 @@
 #include "simulate/product/fan.h"
 
-#include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

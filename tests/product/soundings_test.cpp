@@ -2,10 +2,8 @@
 
 #include "simulate/product/bathymetry.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -3,9 +3,7 @@
 #include "core/random.h"
 #include "simulate/reference/energy_reference.h"
 #include "simulate/reference/reference_cast.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/calibrated.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,6 +1,5 @@
 #include "simulate/product/echogram.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 

@@ -2,7 +2,6 @@
 #include "simulate/product/soundings.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 

@@ -1,10 +1,8 @@
 #include <cstring>
 #include <span>
 
-#include "simulate/labels/labels.h"
 #include "simulate/product/object_table.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/labelled.h"
 

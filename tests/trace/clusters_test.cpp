@@ -1,7 +1,5 @@
 #include "simulate/trace/clusters.h"
 
-#include "simulate/trace/multipath.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/patches.h"
 #include "support/sonars.h"

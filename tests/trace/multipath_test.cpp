@@ -2,7 +2,6 @@
 
 #include "simulate/paper/multipath_echoes.h"
 #include "simulate/sonar/sonar.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/patches.h"
 

@@ -1,9 +1,6 @@
 #include "simulate/trace/visible_water_surface.h"
 
-#include "simulate/trace/multipath.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,7 +1,6 @@
 #include "simulate/visibility/caster.h"
 
 #include "support/draws.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

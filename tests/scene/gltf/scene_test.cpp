@@ -1,5 +1,4 @@
 #include "input/scene/copies.h"
-#include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"
 
 using namespace sonarsim;

@@ -1,4 +1,3 @@
-#include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"
 
 using namespace sonarsim;

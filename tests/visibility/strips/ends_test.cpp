@@ -1,4 +1,3 @@
-#include "core/elementary.h"
 #include "support/draws.h"
 #include "visibility/strips/fixtures.h"
 

@@ -1,10 +1,8 @@
-#include "core/elementary.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 

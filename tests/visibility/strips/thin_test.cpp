@@ -1,5 +1,4 @@
 #include "simulate/reference/reference.h"
-#include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/lattices.h"
