@@ -6,8 +6,7 @@
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;
-using test::Matrix;
-using test::read_npy;
+using test::data_of;
 
 namespace {
 
@@ -26,9 +25,7 @@ TEST_CASE("records: written in any order by any thread, they read back; the rest
         const RecordFile file(path, format, 50);
         CHECK(file.record_bytes() == 160);
         // It can be opened at once, as long as it will ever be.
-        const Matrix empty = read_npy(path);
-        CHECK(empty.rows == 50);
-        CHECK(empty.columns == 40);
+        CHECK(data_of<float>(path, format) == std::vector<float>(2000, 0.0F));
         const auto fill = [&](int first) {
             for (int k = 49 - first; k >= 0; k -= 2) {
                 if (k == 7) continue;
@@ -45,10 +42,10 @@ TEST_CASE("records: written in any order by any thread, they read back; the rest
         CHECK_THROWS_AS(file.write(50, bytes(std::vector<float>(40))), std::logic_error);
         CHECK_THROWS_AS(file.write(0, bytes(std::vector<float>(39))), std::logic_error);
     }
-    const Matrix matrix = read_npy(path);
+    const std::vector<float> values = data_of<float>(path, format);
     for (std::size_t k = 0; k < 50; ++k) {
-        CHECK(matrix.values[k * 40] == (k == 7 ? 0.0F : static_cast<float>(k + 1)));
-        CHECK(matrix.values[k * 40 + 39] == matrix.values[k * 40]);
+        CHECK(values[k * 40] == (k == 7 ? 0.0F : static_cast<float>(k + 1)));
+        CHECK(values[k * 40 + 39] == values[k * 40]);
     }
     // Opened again, it keeps what it holds.
     const std::string before = read_file(path, 1 << 20);
@@ -64,7 +61,7 @@ TEST_CASE("records: a file that a crash left short is made whole") {
     const auto path = folder.path / "a.npy";
     write_file(path, "half a header");
     const RecordFile file(path, {"<f4", {3, 4}}, 3);
-    CHECK(read_npy(path).values == std::vector<float>(12, 0.0F));
+    CHECK(data_of<float>(path, {"<f4", {3, 4}}) == std::vector<float>(12, 0.0F));
 }
 
 TEST_CASE("records: a link in the file's place is not followed") {
