@@ -45,6 +45,11 @@ struct MissionOnDisk {
     }
 };
 
+/// Two copies of the wall at a hundredth of its size.
+const std::string two_walls =
+    "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, class: box},"
+    " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]";
+
 }  // namespace
 
 TEST_CASE("assemble: trajectories of files and of lines, at the rate that is asked for") {
@@ -61,13 +66,8 @@ TEST_CASE("assemble: trajectories of files and of lines, at the rate that is ask
 }
 
 TEST_CASE("assemble: look_at has an object at the distance, bearing and height that were given") {
-    // Two copies of the wall at a hundredth of its size are the objects.
     const MissionOnDisk disk;
-    const std::vector<std::string> settings{
-        "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
-        "class: box},"
-        " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
-        "labels.background=[wall]", "seed=7"};
+    const std::vector<std::string> settings{two_walls, "labels.background=[wall]", "seed=7"};
     const auto poses = [&](const std::string& of) {
         return assemble(disk.load("{look_at: " + of +
                                       ", count: 200, range_m: [2, 9], "
@@ -103,11 +103,8 @@ TEST_CASE("assemble: look_at has an object at the distance, bearing and height t
 
 TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fan, no wall") {
     const MissionOnDisk disk;
-    const std::vector<std::string> settings{
-        "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
-        "class: box},"
-        " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
-        "labels.background=[none]", "sensors.fls.mount={rpy_deg: [0, 35, 10]}", "seed=7"};
+    const std::vector<std::string> settings{two_walls, "labels.background=[none]",
+                                            "sensors.fls.mount={rpy_deg: [0, 35, 10]}", "seed=7"};
     const Eigen::Quaterniond mount = rotation_from_rpy(0.0, radians(35), radians(10));
     // The middles of the two objects; the wall is longer than range_m.
     const Eigen::Vector3d near(5.05, 6, 0), far(40.05, -6, 2);

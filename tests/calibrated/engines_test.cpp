@@ -44,6 +44,14 @@ Scene ripples(std::mt19937& random) {
     return scene;
 }
 
+/// The relative error of an engine's expected image, against brute force.
+double error_of(const Sonar& sonar, const Scene& scene, EngineKind engine, const Pose& pose,
+                const ReferenceGoal& goal) {
+    const Reference truth = cast_energy_reference(Caster(scene), scene, sonar.settings,
+                                                  sensor_pose(sonar, pose, 0), goal);
+    return image_error(expected_image(sonar, scene, engine, pose), truth.intensity).relative_l1;
+}
+
 }  // namespace
 
 // Stones are smaller than a column is wide, and so is the beam: strips weigh each piece by the
@@ -62,11 +70,8 @@ TEST_CASE("side-scan: stones in a narrow beam are visible") {
         const Sonar sonar = make_sonar(config, {0.03});
         Pose pose;
         pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};
-        const Reference truth =
-            cast_energy_reference(Caster(scene), scene, sonar.settings, sensor_pose(sonar, pose, 0),
-                                  {0.02, 64.0, 2'000'000});
-        const std::vector<float> image = expected_image(sonar, scene, EngineKind::automatic, pose);
-        error += image_error(image, truth.intensity).relative_l1 / scenes;
+        error +=
+            error_of(sonar, scene, EngineKind::automatic, pose, {0.02, 64.0, 2'000'000}) / scenes;
     }
     CHECK(error < 0.04);
 }
@@ -126,9 +131,7 @@ TEST_CASE("speckle over ripples keeps the level of the expected image") {
 TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
     std::mt19937 random(5);
     SonarConfig config = calibrated(small_imaging(), 7.5e5);
-    config.range_min_m = 1.0;
-    config.range_max_m = 10.0;
-    config.range_bins = 500;
+    set_range(config, 1.0, 10.0, 500);
     config.azimuth_bins = 96;
     config.azimuth_deg = 15.0;
     const Sonar sonar = make_sonar(config, {0.03});
@@ -139,11 +142,8 @@ TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
     double error = 0.0;
     for (int k = 0; k < scenes; ++k) {
         const Scene scene = ripples(random);
-        const Reference truth =
-            cast_energy_reference(Caster(scene), scene, sonar.settings, sensor_pose(sonar, pose, 0),
-                                  {0.005, 64.0, 4'000'000});
-        const std::vector<float> image = expected_image(sonar, scene, EngineKind::strips, pose);
-        error += image_error(image, truth.intensity).relative_l1 / scenes;
+        error +=
+            error_of(sonar, scene, EngineKind::strips, pose, {0.005, 64.0, 4'000'000}) / scenes;
     }
     CHECK(error < 0.02);
 }
@@ -184,12 +184,8 @@ TEST_CASE("the energy of thin structures is right") {
         SonarConfig config = bare_sonar(lattice.sonar, 4e5);
         Sonar sonar = make_sonar(config, {goal});
         sonar.T_vehicle_sensor = Pose{};
-        const Reference truth = cast_energy_reference(
-            Caster(lattice.scene), lattice.scene, sonar.settings, Pose{}, {0.01, 32.0, 400'000});
         const double error =
-            image_error(expected_image(sonar, lattice.scene, EngineKind::automatic),
-                        truth.intensity)
-                .relative_l1;
+            error_of(sonar, lattice.scene, EngineKind::automatic, {}, {0.01, 32.0, 400'000});
         CAPTURE(error);
         CHECK(error < 2.0 * goal);
         mean += error / scenes;

@@ -3,7 +3,7 @@
 #include "simulate/product/fan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 
@@ -12,9 +12,7 @@ namespace {
 Sonar sonar_of(SonarKind kind, double range_max_m, int range_bins) {
     SonarConfig config = default_sonar(kind);
     config.name = "test";
-    config.range_min_m = 0.5;
-    config.range_max_m = range_max_m;
-    config.range_bins = range_bins;
+    test::set_range(config, 0.5, range_max_m, range_bins);
     return make_sonar(config, {});
 }
 
@@ -43,9 +41,7 @@ Sonar imaging() {
     config.name = "test";
     config.azimuth_deg = 90.0;
     config.azimuth_bins = 90;
-    config.range_min_m = 0.0;
-    config.range_max_m = 10.0;
-    config.range_bins = 100;
+    test::set_range(config, 0.0, 10.0, 100);
     return make_sonar(config, {});
 }
 

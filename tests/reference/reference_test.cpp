@@ -37,9 +37,7 @@ SurfaceSums sums_over(const Scene& scene, int rays, std::uint32_t start) {
 
 Sonar coarse_sonar(SonarKind kind) {
     SonarConfig config = calibrated(default_sonar(kind), 4e5);
-    config.range_min_m = 0.5;
-    config.range_max_m = 12.0;
-    config.range_bins = 96;
+    set_range(config, 0.5, 12.0, 96);
     config.azimuth_bins = 32;
     return make_sonar(config, {0.01});
 }
