@@ -68,25 +68,6 @@ std::vector<double> normalised(const std::vector<float>& image, const std::vecto
 
 }  // namespace
 
-TEST_CASE("calibrated: the level of a plate is the sonar equation's") {
-    InstrumentConfig config = instrument();
-    config.speckle.mode = SpeckleMode::none;
-    config.source_level_db = 200.0;
-    const CalibratedModel model = model_of(config);
-    // In the middle of bin 50, 0.01 m each.
-    constexpr double range = 3.505;
-    constexpr double area = 1e-5;
-    Samples samples;
-    samples.items = {plate_ahead(range, std::sqrt(area))};
-    const std::vector<float> image = image_of(model, samples);
-    const double slope2 = std::pow(std::tan(radians(10.0)), 2.0);
-    const double strength = db_of_power(std::pow(10.0, -2.7) + 0.4 / (8.0 * pi * slope2));
-    const double level = 200.0 + strength + db_of_power(area) - 4.0 * db_of_power(range) -
-                         2.0 * model.absorption_db_per_m * range;
-    CHECK(std::fabs(db_of_power(at(image, 50, 32)) - level) < 0.3);
-    CHECK(*std::ranges::max_element(image) == at(image, 50, 32));
-}
-
 TEST_CASE("calibrated: TVG makes up for spreading and absorption") {
     InstrumentConfig config = instrument();
     config.speckle.mode = SpeckleMode::none;
