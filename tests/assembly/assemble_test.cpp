@@ -45,162 +45,154 @@ struct MissionOnDisk {
     }
 };
 
+/// Two copies of the wall at a hundredth of its size.
+const std::string two_walls =
+    "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, class: box},"
+    " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]";
+
 }  // namespace
 
-TEST_SUITE("assembly") {
-    TEST_CASE("assemble: trajectories of files and of lines, at the rate that is asked for") {
-        const MissionOnDisk disk;
-        // 1 s at 10 Hz: 11 poses.
-        CHECK(assemble(disk.load("{file: poses.csv, rate_hz: 10}")).trajectory.size() == 11);
-        const Trajectory survey =
-            assemble(disk.load("{lawnmower: {area_min_m: [0, 0], area_max_m: [10, 10], z_m: 3, "
-                               "line_spacing_m: 5, speed_m_s: 1, rate_hz: 1}}"))
-                .trajectory;
-        // Two lines of 10 m and the way between them of 5 m: 25 s.
-        CHECK(survey.size() == 26);
-        CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
-    }
+TEST_CASE("assemble: trajectories of files and of lines, at the rate that is asked for") {
+    const MissionOnDisk disk;
+    // 1 s at 10 Hz: 11 poses.
+    CHECK(assemble(disk.load("{file: poses.csv, rate_hz: 10}")).trajectory.size() == 11);
+    const Trajectory survey =
+        assemble(disk.load("{lawnmower: {area_min_m: [0, 0], area_max_m: [10, 10], z_m: 3, "
+                           "line_spacing_m: 5, speed_m_s: 1, rate_hz: 1}}"))
+            .trajectory;
+    // Two lines of 10 m and the way between them of 5 m: 25 s.
+    CHECK(survey.size() == 26);
+    CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
+}
 
-    TEST_CASE(
-        "assemble: look_at has an object at the distance, bearing and height that were given") {
-        // Two copies of the wall at a hundredth of its size are the objects.
-        const MissionOnDisk disk;
-        const std::vector<std::string> settings{
-            "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
-            "class: box},"
-            " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
-            "labels.background=[wall]", "seed=7"};
-        const auto poses = [&](const std::string& of) {
-            return assemble(disk.load("{look_at: " + of +
-                                          ", count: 200, range_m: [2, 9], "
-                                          "bearing_deg: [-30, 10], height_m: [1, 3]}",
-                                      settings))
-                .trajectory;
-        };
-        // The middles and the lowest points of the two objects, scaled by 0.01.
-        const Eigen::Vector3d near(5.05, 6, -0.1), far(40.05, -6, 1.9);
-        int of_far = 0;
-        for (const TimedPose& pose : poses("objects")) {
-            const Eigen::Vector3d at = pose.T_world_vehicle.translation;
-            const bool is_far = (at - far).head<2>().norm() < (at - near).head<2>().norm();
-            of_far += is_far;
-            const Eigen::Vector3d to = (is_far ? far : near) - at;
-            const Eigen::Vector3d seen = pose.T_world_vehicle.rotation.conjugate() * to;
-            const double bearing_deg = std::atan2(seen.y(), seen.x()) * 180.0 / 3.141592653589793;
-            CHECK(std::abs(to.head<2>().norm() - 5.5) < 3.501);
-            CHECK(std::abs(bearing_deg + 10.0) < 20.001);
-            CHECK(std::abs(-to.z() - 2.0) < 1.001);
-            CHECK(std::abs(at.y()) <= 10.0);  // within the bounds of the scene
-        }
-        // 200 fair draws have 60 to 140 of one kind but for one in 10^8; bounds favour the nearer.
-        CHECK(of_far > 40);
-        CHECK(of_far < 160);
-        for (const TimedPose& pose : poses("post"))
-            CHECK((pose.T_world_vehicle.translation - far).head<2>().norm() < 9.01);
-        CHECK_THROWS_WITH_AS(
-            poses("posts"),
-            "trajectory.look_at: the scene has no object at rest of 'posts' that is "
-            "no background (did you mean 'post'?); there are: objects, box, post",
-            InputError);
+TEST_CASE("assemble: look_at has an object at the distance, bearing and height that were given") {
+    const MissionOnDisk disk;
+    const std::vector<std::string> settings{two_walls, "labels.background=[wall]", "seed=7"};
+    const auto poses = [&](const std::string& of) {
+        return assemble(disk.load("{look_at: " + of +
+                                      ", count: 200, range_m: [2, 9], "
+                                      "bearing_deg: [-30, 10], height_m: [1, 3]}",
+                                  settings))
+            .trajectory;
+    };
+    // The middles and the lowest points of the two objects, scaled by 0.01.
+    const Eigen::Vector3d near(5.05, 6, -0.1), far(40.05, -6, 1.9);
+    int of_far = 0;
+    for (const TimedPose& pose : poses("objects")) {
+        const Eigen::Vector3d at = pose.T_world_vehicle.translation;
+        const bool is_far = (at - far).head<2>().norm() < (at - near).head<2>().norm();
+        of_far += is_far;
+        const Eigen::Vector3d to = (is_far ? far : near) - at;
+        const Eigen::Vector3d seen = pose.T_world_vehicle.rotation.conjugate() * to;
+        const double bearing_deg = std::atan2(seen.y(), seen.x()) * 180.0 / 3.141592653589793;
+        CHECK(std::abs(to.head<2>().norm() - 5.5) < 3.501);
+        CHECK(std::abs(bearing_deg + 10.0) < 20.001);
+        CHECK(std::abs(-to.z() - 2.0) < 1.001);
+        CHECK(std::abs(at.y()) <= 10.0);  // within the bounds of the scene
     }
+    // 200 fair draws have 60 to 140 of one kind but for one in 10^8; bounds favour the nearer.
+    CHECK(of_far > 40);
+    CHECK(of_far < 160);
+    for (const TimedPose& pose : poses("post"))
+        CHECK((pose.T_world_vehicle.translation - far).head<2>().norm() < 9.01);
+    CHECK_THROWS_WITH_AS(poses("posts"),
+                         "trajectory.look_at: the scene has no object at rest of 'posts' that is "
+                         "no background (did you mean 'post'?); there are: objects, box, post",
+                         InputError);
+}
 
-    TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fan, no wall") {
-        const MissionOnDisk disk;
-        const std::vector<std::string> settings{
-            "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
-            "class: box},"
-            " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
-            "labels.background=[none]", "sensors.fls.mount={rpy_deg: [0, 35, 10]}", "seed=7"};
-        const Eigen::Quaterniond mount = rotation_from_rpy(0.0, radians(35), radians(10));
-        // The middles of the two objects; the wall is longer than range_m.
-        const Eigen::Vector3d near(5.05, 6, 0), far(40.05, -6, 2);
-        for (const std::string of : {"objects", "post, box"}) {
-            const Assembly assembly =
-                assemble(disk.load("{look_at: '" + of +
-                                       "', count: 50, range_m: [2, 9], bearing_deg: [-9, 3], "
-                                       "elevation_deg: [2, 5], height_m: [1, 3]}",
-                                   settings));
-            for (const TimedPose& pose : assembly.trajectory) {
-                const Pose& T = pose.T_world_vehicle;
-                const bool is_far = T.translation.x() > 20.0;
-                const Eigen::Vector3d seen =
-                    (T.rotation * mount).conjugate() * ((is_far ? far : near) - T.translation);
-                CHECK(std::abs(std::atan2(seen.y(), seen.x()) + radians(3)) < radians(6.001));
-                CHECK(std::abs(std::asin(seen.z() / seen.norm()) - radians(3.5)) < radians(1.501));
-            }
+TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fan, no wall") {
+    const MissionOnDisk disk;
+    const std::vector<std::string> settings{two_walls, "labels.background=[none]",
+                                            "sensors.fls.mount={rpy_deg: [0, 35, 10]}", "seed=7"};
+    const Eigen::Quaterniond mount = rotation_from_rpy(0.0, radians(35), radians(10));
+    // The middles of the two objects; the wall is longer than range_m.
+    const Eigen::Vector3d near(5.05, 6, 0), far(40.05, -6, 2);
+    for (const std::string of : {"objects", "post, box"}) {
+        const Assembly assembly =
+            assemble(disk.load("{look_at: '" + of +
+                                   "', count: 50, range_m: [2, 9], bearing_deg: [-9, 3], "
+                                   "elevation_deg: [2, 5], height_m: [1, 3]}",
+                               settings));
+        for (const TimedPose& pose : assembly.trajectory) {
+            const Pose& T = pose.T_world_vehicle;
+            const bool is_far = T.translation.x() > 20.0;
+            const Eigen::Vector3d seen =
+                (T.rotation * mount).conjugate() * ((is_far ? far : near) - T.translation);
+            CHECK(std::abs(std::atan2(seen.y(), seen.x()) + radians(3)) < radians(6.001));
+            CHECK(std::abs(std::asin(seen.z() / seen.norm()) - radians(3.5)) < radians(1.501));
         }
     }
+}
 
-    TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
-        const MissionOnDisk disk;
-        const std::string lines =
-            "{lawnmower: {area_min_m: [1, 1], area_max_m: [9, 9], altitude_m: 3, speed_m_s: 1, "
-            "rate_hz: 1}}";
-        CHECK_THROWS_WITH_AS(assemble(disk.load(lines)),
-                             "mission.yaml: trajectory.lawnmower.altitude_m: there is no bottom "
-                             "below 1, 2.5 m; name "
-                             "it in scene.bottom, or give z_m",
-                             InputError);
-        const std::vector<std::string> bed{
-            "scene={seabed: {cell_m: 1, z_m: -12, size_m: [10, 10], material: concrete}, "
-            "materials: materials.csv}"};
-        for (const TimedPose& pose : assemble(disk.load(lines, bed)).trajectory)
-            CHECK(pose.T_world_vehicle.translation.z() == test::approx(-9.0));
-    }
+TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
+    const MissionOnDisk disk;
+    const std::string lines =
+        "{lawnmower: {area_min_m: [1, 1], area_max_m: [9, 9], altitude_m: 3, speed_m_s: 1, "
+        "rate_hz: 1}}";
+    CHECK_THROWS_WITH_AS(assemble(disk.load(lines)),
+                         "mission.yaml: trajectory.lawnmower.altitude_m: there is no bottom "
+                         "below 1, 2.5 m; name "
+                         "it in scene.bottom, or give z_m",
+                         InputError);
+    const std::vector<std::string> bed{
+        "scene={seabed: {cell_m: 1, z_m: -12, size_m: [10, 10], material: concrete}, "
+        "materials: materials.csv}"};
+    for (const TimedPose& pose : assemble(disk.load(lines, bed)).trajectory)
+        CHECK(pose.T_world_vehicle.translation.z() == test::approx(-9.0));
+}
 
-    TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
-        const MissionOnDisk disk;
-        const std::vector<std::string> settings{"sensors.fls.model=calibrated"};
-        const Assembly assembly = assemble(disk.load("{file: poses.csv}", settings));
-        const auto& model =
-            dynamic_cast<const CalibratedModel&>(*assembly.sonars[0].settings.model);
-        CHECK(!assembly.scene.materials.empty());
-        CHECK(model.prepared_materials == assembly.scene.materials);
-        CHECK(model.scattering.materials.size() == assembly.scene.materials.size());
-    }
+TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
+    const MissionOnDisk disk;
+    const std::vector<std::string> settings{"sensors.fls.model=calibrated"};
+    const Assembly assembly = assemble(disk.load("{file: poses.csv}", settings));
+    const auto& model = dynamic_cast<const CalibratedModel&>(*assembly.sonars[0].settings.model);
+    CHECK(!assembly.scene.materials.empty());
+    CHECK(model.prepared_materials == assembly.scene.materials);
+    CHECK(model.scattering.materials.size() == assembly.scene.materials.size());
+}
 
-    TEST_CASE("assemble: the octree refuses the calibrated model") {
-        const MissionOnDisk disk;
-        Mission mission = disk.load("{file: poses.csv}");
-        mission.engine = EngineKind::octree;
-        CHECK_NOTHROW(assemble(mission));
-        mission.sensors[0].model = ModelKind::calibrated;
-        CHECK_THROWS_WITH_AS(assemble(mission),
-                             "sensor 'fls': engine: octree has votes in place of areas, and model: "
-                             "calibrated needs areas; use engine: auto",
-                             InputError);
-    }
+TEST_CASE("assemble: the octree refuses the calibrated model") {
+    const MissionOnDisk disk;
+    Mission mission = disk.load("{file: poses.csv}");
+    mission.engine = EngineKind::octree;
+    CHECK_NOTHROW(assemble(mission));
+    mission.sensors[0].model = ModelKind::calibrated;
+    CHECK_THROWS_WITH_AS(assemble(mission),
+                         "sensor 'fls': engine: octree has votes in place of areas, and model: "
+                         "calibrated needs areas; use engine: auto",
+                         InputError);
+}
 
-    TEST_CASE("assemble: the instances of the bottom, for heights") {
-        const MissionOnDisk disk;
-        const auto is_bottom = [&](std::vector<std::string> overrides) {
-            overrides.emplace_back(
-                "scene.objects=[{name: other, file: wall.gltf, position_m: [1, 0, 0]}]");
-            return assemble(disk.load("{file: poses.csv}", overrides)).scene.is_bottom;
-        };
-        using Flags = std::vector<std::uint8_t>;
-        CHECK(is_bottom({}) == Flags{0, 0});
-        CHECK(is_bottom({"output.labels=[height]"}) == Flags{1, 0});
-        CHECK(is_bottom({"output.labels=[height]", "scene.bottom=[wa*]"}) == Flags{1, 0});
-    }
+TEST_CASE("assemble: the instances of the bottom, for heights") {
+    const MissionOnDisk disk;
+    const auto is_bottom = [&](std::vector<std::string> overrides) {
+        overrides.emplace_back(
+            "scene.objects=[{name: other, file: wall.gltf, position_m: [1, 0, 0]}]");
+        return assemble(disk.load("{file: poses.csv}", overrides)).scene.is_bottom;
+    };
+    using Flags = std::vector<std::uint8_t>;
+    CHECK(is_bottom({}) == Flags{0, 0});
+    CHECK(is_bottom({"output.labels=[height]"}) == Flags{1, 0});
+    CHECK(is_bottom({"output.labels=[height]", "scene.bottom=[wa*]"}) == Flags{1, 0});
+}
 
-    TEST_CASE("assemble: the inputs' hash tells files, scenes and poses apart") {
-        const Mission mission = small_mission("out");
-        const Assembly assembly = small_assembly(mission, 7);
-        const std::string hash = inputs_hash(assembly);
-        CHECK(hash.size() == 32);
-        CHECK(inputs_hash(assembly) == hash);
-        const auto changed = [&](auto change) {
-            Assembly other = assembly;
-            change(other);
-            return inputs_hash(other) != hash;
-        };
-        CHECK(changed([](Assembly& a) { a.scene.vertices[0].x() += 1e-3F; }));
-        CHECK(changed([](Assembly& a) { a.scene.origin.x() += 1e-3; }));
-        CHECK(changed(
-            [](Assembly& a) { std::swap(a.scene.triangles[0][0], a.scene.triangles[0][1]); }));
-        CHECK(changed([](Assembly& a) { a.inputs.push_back({"other.glb", "0"}); }));
-        CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
-        CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
-    }
+TEST_CASE("assemble: the inputs' hash tells files, scenes and poses apart") {
+    const Mission mission = small_mission("out");
+    const Assembly assembly = small_assembly(mission, 7);
+    const std::string hash = inputs_hash(assembly);
+    CHECK(hash.size() == 32);
+    CHECK(inputs_hash(assembly) == hash);
+    const auto changed = [&](auto change) {
+        Assembly other = assembly;
+        change(other);
+        return inputs_hash(other) != hash;
+    };
+    CHECK(changed([](Assembly& a) { a.scene.vertices[0].x() += 1e-3F; }));
+    CHECK(changed([](Assembly& a) { a.scene.origin.x() += 1e-3; }));
+    CHECK(
+        changed([](Assembly& a) { std::swap(a.scene.triangles[0][0], a.scene.triangles[0][1]); }));
+    CHECK(changed([](Assembly& a) { a.inputs.push_back({"other.glb", "0"}); }));
+    CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
+    CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
 }

@@ -49,56 +49,53 @@ Drawn draw(const ParticlesConfig& config, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_SUITE("assembly") {
-    // A uniform draw in a box is uniform along each axis. In an ellipsoid the cube of the scaled
-    // radius is uniform, and so is the height over the radius. Significance 1e-3 each.
-    TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
-        for (const ParticleRegion region : {ParticleRegion::box, ParticleRegion::ellipsoid}) {
-            const Drawn drawn = draw(school(region, 3000.0), 5);
-            std::vector<double> first, second, lengths;
-            for (const Particle& particle : drawn.particles().all) {
-                const Eigen::Vector3d middle(100.0, -50.0, -10.0);
-                const Eigen::Vector3d scaled =
-                    (particle.start_m - middle).cwiseQuotient(Eigen::Vector3d(10.0, 5.0, 2.0));
-                const bool box = region == ParticleRegion::box;
-                const double radius = scaled.norm();
-                first.push_back(box ? 0.5 * (scaled.x() + 1.0) : std::pow(radius, 3));
-                second.push_back(0.5 * (box ? scaled.y() + 1.0 : scaled.z() / radius + 1.0));
-                // Love: the strength goes with 19.1 log L.
-                const double db = db_of_power(particle.section_m2);
-                const double f_khz = 1e-3 * drawn.sonars[0].config.instrument.frequency_hz;
-                const double length_cm =
-                    std::pow(10.0, (db + 62.0 + 0.9 * std::log10(f_khz)) / 19.1);
-                lengths.push_back((length_cm - 20.0) / 10.0);
-                CHECK(particle.velocity_m_s.x() == 0.5);
-            }
-            const auto uniform = [](double x) { return std::min(1.0, std::max(0.0, x)); };
-            CHECK(ks_p_value(first, uniform) > 1e-3);
-            CHECK(ks_p_value(second, uniform) > 1e-3);
-            CHECK(ks_p_value(lengths, uniform) > 1e-3);
+// A uniform draw in a box is uniform along each axis. In an ellipsoid the cube of the scaled
+// radius is uniform, and so is the height over the radius. Significance 1e-3 each.
+TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
+    for (const ParticleRegion region : {ParticleRegion::box, ParticleRegion::ellipsoid}) {
+        const Drawn drawn = draw(school(region, 3000.0), 5);
+        std::vector<double> first, second, lengths;
+        for (const Particle& particle : drawn.particles().all) {
+            const Eigen::Vector3d middle(100.0, -50.0, -10.0);
+            const Eigen::Vector3d scaled =
+                (particle.start_m - middle).cwiseQuotient(Eigen::Vector3d(10.0, 5.0, 2.0));
+            const bool box = region == ParticleRegion::box;
+            const double radius = scaled.norm();
+            first.push_back(box ? 0.5 * (scaled.x() + 1.0) : std::pow(radius, 3));
+            second.push_back(0.5 * (box ? scaled.y() + 1.0 : scaled.z() / radius + 1.0));
+            // Love: the strength goes with 19.1 log L.
+            const double db = db_of_power(particle.section_m2);
+            const double f_khz = 1e-3 * drawn.sonars[0].config.instrument.frequency_hz;
+            const double length_cm = std::pow(10.0, (db + 62.0 + 0.9 * std::log10(f_khz)) / 19.1);
+            lengths.push_back((length_cm - 20.0) / 10.0);
+            CHECK(particle.velocity_m_s.x() == 0.5);
         }
+        const auto uniform = [](double x) { return std::min(1.0, std::max(0.0, x)); };
+        CHECK(ks_p_value(first, uniform) > 1e-3);
+        CHECK(ks_p_value(second, uniform) > 1e-3);
+        CHECK(ks_p_value(lengths, uniform) > 1e-3);
     }
+}
 
-    TEST_CASE("particles: keyed by the seed, timed from the first ping") {
-        const Drawn one = draw(school(ParticleRegion::box, 5.0), 5);
-        const auto start_of = [](const Drawn& drawn) { return drawn.particles().all[0].start_m; };
-        CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 5)) == start_of(one));
-        CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 6)) != start_of(one));
-        CHECK(one.particles().time_s == std::vector<double>{0.0, 1.0, 2.5});
-    }
+TEST_CASE("particles: keyed by the seed, timed from the first ping") {
+    const Drawn one = draw(school(ParticleRegion::box, 5.0), 5);
+    const auto start_of = [](const Drawn& drawn) { return drawn.particles().all[0].start_m; };
+    CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 5)) == start_of(one));
+    CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 6)) != start_of(one));
+    CHECK(one.particles().time_s == std::vector<double>{0.0, 1.0, 2.5});
+}
 
-    TEST_CASE("particles: single targets and groups are instances") {
-        const Drawn few = draw(school(ParticleRegion::box, 3.0), 5);
-        CHECK(few.scene.instances ==
-              std::vector<std::string>{"floor", "school_1", "school_2", "school_3"});
-        CHECK(few.scene.instance_classes ==
-              std::vector<std::string>{"", "herring", "herring", "herring"});
-        CHECK(few.scene.materials.back().name == "fish");
-        const Drawn many = draw(school(ParticleRegion::box, 500.0), 5);
-        CHECK(many.scene.instances == std::vector<std::string>{"floor", "school"});
-        CHECK(many.particles().all[499].instance == 1);
-        ParticlesConfig taken = school(ParticleRegion::box, 3.0);
-        taken.name = "floor";
-        CHECK_THROWS_WITH_AS(draw(taken, 5), doctest::Contains("'floor'"), InputError);
-    }
+TEST_CASE("particles: single targets and groups are instances") {
+    const Drawn few = draw(school(ParticleRegion::box, 3.0), 5);
+    CHECK(few.scene.instances ==
+          std::vector<std::string>{"floor", "school_1", "school_2", "school_3"});
+    CHECK(few.scene.instance_classes ==
+          std::vector<std::string>{"", "herring", "herring", "herring"});
+    CHECK(few.scene.materials.back().name == "fish");
+    const Drawn many = draw(school(ParticleRegion::box, 500.0), 5);
+    CHECK(many.scene.instances == std::vector<std::string>{"floor", "school"});
+    CHECK(many.particles().all[499].instance == 1);
+    ParticlesConfig taken = school(ParticleRegion::box, 3.0);
+    taken.name = "floor";
+    CHECK_THROWS_WITH_AS(draw(taken, 5), doctest::Contains("'floor'"), InputError);
 }

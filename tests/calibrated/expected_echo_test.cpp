@@ -92,83 +92,79 @@ double mean_between(const Sonar& sonar, const std::vector<double>& rows, double 
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // The noise is the mean of 81 rows or more. The mean of exponential powers is known to 0.5 dB,
-    // and the gain of those rows differs by less than that of their middle.
-    TEST_CASE("presets: a flat floor in the picture is as far above the noise as by closed form") {
-        struct Case {
-            std::string preset, keys;
-            double pitch_deg, range_m;
-        };
-        for (const Case& c :
-             {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n    instrument: {",
-                   20.0, 20.0},
-              Case{"micron", "    sector_deg: 1\n    step_deg: 1\n    instrument: {", 20.0, 40.0},
-              Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1, expansion: 1}, ",
-                   0.0, 20.0}}) {
-            CAPTURE(c.preset);
-            const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
-            const CalibratedModel& model = calibrated_model_of(sonar);
-            const Pose pose{rotation_from_rpy(0.0, radians(c.pitch_deg), 0.0),
-                            Eigen::Vector3d::Zero()};
-            const std::vector<float> echo =
-                expected_image(sonar, sand_at(c.range_m), EngineKind::rays, pose);
-            const std::vector<float> noise =
-                image_of_samples(model, sonar.settings.view, {}, {.random = 2});
-            const double over_noise_db = db_of_power(mean_at(sonar, echo, c.range_m, 2) /
-                                                     mean_at(sonar, noise, c.range_m, 40));
-            const double closed_db = sand_over_noise_db(sonar, c.range_m);
-            CHECK(std::fabs(over_noise_db - closed_db) < 1.0);
-            const double range_m =
-                range_of_level([&](double r) { return sand_over_noise_db(sonar, r); }, closed_db);
-            CHECK(std::fabs(range_m / c.range_m - 1.0) < 1e-6);
-        }
+// The noise is the mean of 81 rows or more. The mean of exponential powers is known to 0.5 dB,
+// and the gain of those rows differs by less than that of their middle.
+TEST_CASE("presets: a flat floor in the picture is as far above the noise as by closed form") {
+    struct Case {
+        std::string preset, keys;
+        double pitch_deg, range_m;
+    };
+    for (const Case& c :
+         {Case{"gemini_720is", "    azimuth_deg: 10\n    azimuth_bins: 21\n    instrument: {", 20.0,
+               20.0},
+          Case{"micron", "    sector_deg: 1\n    step_deg: 1\n    instrument: {", 20.0, 40.0},
+          Case{"sidescan_900khz", "    instrument: {receiver: {samples: 1, expansion: 1}, ", 0.0,
+               20.0}}) {
+        CAPTURE(c.preset);
+        const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
+        const CalibratedModel& model = calibrated_model_of(sonar);
+        const Pose pose{rotation_from_rpy(0.0, radians(c.pitch_deg), 0.0), Eigen::Vector3d::Zero()};
+        const std::vector<float> echo =
+            expected_image(sonar, sand_at(c.range_m), EngineKind::rays, pose);
+        const std::vector<float> noise =
+            image_of_samples(model, sonar.settings.view, {}, {.random = 2});
+        const double over_noise_db =
+            db_of_power(mean_at(sonar, echo, c.range_m, 2) / mean_at(sonar, noise, c.range_m, 40));
+        const double closed_db = sand_over_noise_db(sonar, c.range_m);
+        CHECK(std::fabs(over_noise_db - closed_db) < 1.0);
+        const double range_m =
+            range_of_level([&](double r) { return sand_over_noise_db(sonar, r); }, closed_db);
+        CHECK(std::fabs(range_m / c.range_m - 1.0) < 1e-6);
     }
+}
 
-    // The pulse, 11 cm, holds the whole beam: at its edge the bottom is 2 cm farther.
-    TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form") {
-        const Sonar sonar =
-            preset_sonar("echosounder_200khz", "    range_max_m: 25\n    range_bins: 500\n");
-        constexpr double depth_m = 12.525;
-        const std::vector<float> image =
-            expected_image(sonar, sand_at(depth_m / std::sin(radians(20.0))), EngineKind::rays);
-        const double found_db = db_of_power(*std::ranges::max_element(image));
-        CHECK(std::fabs(found_db - sand_over_full_scale_db(sonar, depth_m)) < 1.0);
+// The pulse, 11 cm, holds the whole beam: at its edge the bottom is 2 cm farther.
+TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form") {
+    const Sonar sonar =
+        preset_sonar("echosounder_200khz", "    range_max_m: 25\n    range_bins: 500\n");
+    constexpr double depth_m = 12.525;
+    const std::vector<float> image =
+        expected_image(sonar, sand_at(depth_m / std::sin(radians(20.0))), EngineKind::rays);
+    const double found_db = db_of_power(*std::ranges::max_element(image));
+    CHECK(std::fabs(found_db - sand_over_full_scale_db(sonar, depth_m)) < 1.0);
+}
+
+// In files of real side-scan sonars the bottom is 35 dB above the water before it, which is
+// even along range. Their bottoms are not known: silt at 900 kHz is the weakest of these.
+TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
+    const auto level_db = [](const char* preset, double altitude_m, double phi) {
+        const Sonar sonar = preset_sonar(preset, "");
+        const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
+        const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
+        const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
+        return db_of_power(bottom / water);
+    };
+    // Sand, silty sand, silt.
+    for (const double phi : {1.5, 4.0, 6.0}) {
+        CHECK(std::fabs(level_db("sidescan_900khz", 5.0, phi) - 35.0) < 9.0);
+        CHECK(std::fabs(level_db("sidescan_400khz", 6.0, phi) - 35.0) < 6.0);
     }
+}
 
-    // In files of real side-scan sonars the bottom is 35 dB above the water before it, which is
-    // even along range. Their bottoms are not known: silt at 900 kHz is the weakest of these.
-    TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
-        const auto level_db = [](const char* preset, double altitude_m, double phi) {
-            const Sonar sonar = preset_sonar(preset, "");
-            const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
-            const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
-            const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
-            return db_of_power(bottom / water);
-        };
-        // Sand, silty sand, silt.
-        for (const double phi : {1.5, 4.0, 6.0}) {
-            CHECK(std::fabs(level_db("sidescan_900khz", 5.0, phi) - 35.0) < 9.0);
-            CHECK(std::fabs(level_db("sidescan_400khz", 6.0, phi) - 35.0) < 6.0);
-        }
-    }
-
-    // In all of 20 pings of real multibeam sonars that look down, the first bottom echo makes a
-    // ring in all beams, 31 dB above the water.
-    TEST_CASE("presets: the ring of a multibeam sonar") {
-        const Sonar sonar =
-            preset_sonar("bathymetric_400khz", "    range_max_m: 30\n    range_bins: 600\n");
-        const View& view = sonar.settings.view;
-        constexpr double altitude_m = 10.0;
-        for (const double phi : {1.5, 6.0}) {
-            // Beams from 35 to 55 degrees off.
-            const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m,
-                                                       view.beams * 5 / 120, view.beams * 25 / 120);
-            const int first = static_cast<int>((altitude_m - view.range_min_m) / view.bin_m());
-            const double ring =
-                *std::max_element(rows.begin() + first - 2, rows.begin() + first + 6);
-            const double water = mean_between(sonar, rows, 0.5 * altitude_m, 0.9 * altitude_m);
-            CHECK(std::fabs(db_of_power(ring / water) - 31.0) < 6.0);
-        }
+// In all of 20 pings of real multibeam sonars that look down, the first bottom echo makes a
+// ring in all beams, 31 dB above the water.
+TEST_CASE("presets: the ring of a multibeam sonar") {
+    const Sonar sonar =
+        preset_sonar("bathymetric_400khz", "    range_max_m: 30\n    range_bins: 600\n");
+    const View& view = sonar.settings.view;
+    constexpr double altitude_m = 10.0;
+    for (const double phi : {1.5, 6.0}) {
+        // Beams from 35 to 55 degrees off.
+        const std::vector<double> rows =
+            mean_rows(sonar, bed_of(phi), altitude_m, view.beams * 5 / 120, view.beams * 25 / 120);
+        const int first = static_cast<int>((altitude_m - view.range_min_m) / view.bin_m());
+        const double ring = *std::max_element(rows.begin() + first - 2, rows.begin() + first + 6);
+        const double water = mean_between(sonar, rows, 0.5 * altitude_m, 0.9 * altitude_m);
+        CHECK(std::fabs(db_of_power(ring / water) - 31.0) < 6.0);
     }
 }

@@ -29,66 +29,64 @@ std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double 
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the same y / r") {
-        // y / r = sin(azimuth) cos(elevation) is 0.3214 in both places.
-        const double azimuth = radians(70.0);
-        const double elevation = radians(70.0);
-        const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
-        const Sonar narrow = line_array_sonar(0.0);
-        const Sonar wide = line_array_sonar(180.0);
-        CHECK(narrow.settings.view.guards.count == 0);
-        CHECK(wide.settings.view.guards.count == 64);
-        const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
-        CHECK(std::ranges::max(ahead) > 0.0F);
-        CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
-        const std::vector<float> aside = image_of_ball(wide, azimuth, elevation);
-        CHECK(image_error(aside, ahead).relative_l1 < 0.03);
-        CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
-        // Guard beams as wide as two bins, in the same 60 degrees to either side.
-        Sonar coarse = wide;
-        coarse.settings.view.guards = {.count = 32, .beam_rad = radians(60.0) / 32};
-        const View widened = widened_view(coarse.settings.view);
-        CHECK(std::fabs(widened.azimuth_rad - radians(180.0)) < 1e-9);
-        CHECK(image_error(image_of_ball(coarse, azimuth, elevation), aside).relative_l1 < 0.02);
-        CHECK(image_error(image_of_ball(coarse, -azimuth, elevation),
-                          image_of_ball(wide, -azimuth, elevation))
-                  .relative_l1 < 0.02);
-    }
+TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the same y / r") {
+    // y / r = sin(azimuth) cos(elevation) is 0.3214 in both places.
+    const double azimuth = radians(70.0);
+    const double elevation = radians(70.0);
+    const double same = arcsin(sincos(azimuth).sin * sincos(elevation).cos);
+    const Sonar narrow = line_array_sonar(0.0);
+    const Sonar wide = line_array_sonar(180.0);
+    CHECK(narrow.settings.view.guards.count == 0);
+    CHECK(wide.settings.view.guards.count == 64);
+    const std::vector<float> ahead = image_of_ball(narrow, same, 0.0);
+    CHECK(std::ranges::max(ahead) > 0.0F);
+    CHECK(std::ranges::max(image_of_ball(narrow, azimuth, elevation)) == 0.0F);
+    const std::vector<float> aside = image_of_ball(wide, azimuth, elevation);
+    CHECK(image_error(aside, ahead).relative_l1 < 0.03);
+    CHECK(image_error(image_of_ball(wide, same, 0.0), ahead).relative_l1 < 0.03);
+    // Guard beams as wide as two bins, in the same 60 degrees to either side.
+    Sonar coarse = wide;
+    coarse.settings.view.guards = {.count = 32, .beam_rad = radians(60.0) / 32};
+    const View widened = widened_view(coarse.settings.view);
+    CHECK(std::fabs(widened.azimuth_rad - radians(180.0)) < 1e-9);
+    CHECK(image_error(image_of_ball(coarse, azimuth, elevation), aside).relative_l1 < 0.02);
+    CHECK(image_error(image_of_ball(coarse, -azimuth, elevation),
+                      image_of_ball(wide, -azimuth, elevation))
+              .relative_l1 < 0.02);
+}
 
-    TEST_CASE("beams that the array does not resolve are traced two at a time at coarse goals") {
-        SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
-        set_range(config, 1.0, 5.0, 200);
-        config.azimuth_deg = 60.0;
-        config.elevation_deg = 60.0;
-        config.azimuth_bins = 120;
-        config.instrument.beam.width_deg = 1.0;
-        const auto traced_beams = [&](double goal) {
-            const Sonar sonar = make_sonar(config, {goal});
-            return traced_view(sonar.settings.view).beams;
-        };
-        CHECK(traced_beams(0.03) == 60);
-        CHECK(traced_beams(0.01) == 120);
-        Scene scene = floor_scene(8.0F, -1.5F, 0.4F, 4);
-        add_sphere(scene, {3.0F, 0.4F, -1.2F}, 0.3F, 0, 32);
-        add_box(scene, {2.0F, -0.9F, -1.5F}, {2.4F, -0.3F, -0.8F}, 0);
-        for (const double view_azimuth_deg : {0.0, 91.4}) {
-            config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
-            const Sonar joined = make_sonar(config, {0.02});
-            REQUIRE(joined.settings.view.guards.joined == 2);
-            const auto engine = make_engine(scene, {.type = EngineKind::strips, .octree = {}});
-            const Samples samples = visible_surface(joined.settings.view, *engine, {});
-            REQUIRE(std::ssize(samples.beam_begin) == joined.settings.view.beams + 1);
-            CHECK(samples.in_no_beam().empty() == (view_azimuth_deg == 0.0));
-            for (int j = 0; j < joined.settings.view.beams; j += 2) {
-                CHECK(samples.beam(j).size() > 0);
-                CHECK(samples.beam(j + 1).empty());
-            }
-            Sonar single = joined;
-            single.settings.view.guards.joined = 1;
-            const std::vector<float> by_two = expected_image(joined, scene, EngineKind::strips);
-            const std::vector<float> by_one = expected_image(single, scene, EngineKind::strips);
-            CHECK(image_error(by_two, by_one).relative_l1 < 0.03);
+TEST_CASE("beams that the array does not resolve are traced two at a time at coarse goals") {
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
+    set_range(config, 1.0, 5.0, 200);
+    config.azimuth_deg = 60.0;
+    config.elevation_deg = 60.0;
+    config.azimuth_bins = 120;
+    config.instrument.beam.width_deg = 1.0;
+    const auto traced_beams = [&](double goal) {
+        const Sonar sonar = make_sonar(config, {goal});
+        return traced_view(sonar.settings.view).beams;
+    };
+    CHECK(traced_beams(0.03) == 60);
+    CHECK(traced_beams(0.01) == 120);
+    Scene scene = floor_scene(8.0F, -1.5F, 0.4F, 4);
+    add_sphere(scene, {3.0F, 0.4F, -1.2F}, 0.3F, 0, 32);
+    add_box(scene, {2.0F, -0.9F, -1.5F}, {2.4F, -0.3F, -0.8F}, 0);
+    for (const double view_azimuth_deg : {0.0, 91.4}) {
+        config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
+        const Sonar joined = make_sonar(config, {0.02});
+        REQUIRE(joined.settings.view.guards.joined == 2);
+        const auto engine = make_engine(scene, {.type = EngineKind::strips, .octree = {}});
+        const Samples samples = visible_surface(joined.settings.view, *engine, {});
+        REQUIRE(std::ssize(samples.beam_begin) == joined.settings.view.beams + 1);
+        CHECK(samples.in_no_beam().empty() == (view_azimuth_deg == 0.0));
+        for (int j = 0; j < joined.settings.view.beams; j += 2) {
+            CHECK(samples.beam(j).size() > 0);
+            CHECK(samples.beam(j + 1).empty());
         }
+        Sonar single = joined;
+        single.settings.view.guards.joined = 1;
+        const std::vector<float> by_two = expected_image(joined, scene, EngineKind::strips);
+        const std::vector<float> by_one = expected_image(single, scene, EngineKind::strips);
+        CHECK(image_error(by_two, by_one).relative_l1 < 0.03);
     }
 }

@@ -3,7 +3,6 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/model.h"
 #include "simulate/calibrated/range_response.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
@@ -59,234 +58,228 @@ constexpr std::array kinds{SonarKind::imaging, SonarKind::sidescan, SonarKind::e
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4) of kHz, by hand.
-    TEST_CASE("levels: noise of heat and of the wind at three frequencies") {
-        const auto at = [](double frequency_hz, double wind_m_s) {
-            SonarConfig config = imaging();
-            config.instrument.frequency_hz = frequency_hz;
-            return levels_of(config, {.wind_m_s = wind_m_s});
-        };
-        CHECK(std::fabs(at(1e5, 0.0).thermal_noise_db - 25.0) < 1e-9);
-        CHECK(std::fabs(at(4e5, 0.0).thermal_noise_db - 37.0412) < 1e-3);
-        CHECK(std::fabs(at(1e6, 0.0).thermal_noise_db - 45.0) < 1e-9);
-        CHECK(std::fabs(at(1e3, 0.0).wind_noise_db - 44.1549) < 1e-3);
-        CHECK(std::fabs(at(1e4, 5.0).wind_noise_db - 46.0891) < 1e-3);
-        CHECK(std::fabs(at(3.8e4, 4.0).wind_noise_db - 33.2221) < 1e-3);
-    }
+// -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4) of kHz, by hand.
+TEST_CASE("levels: noise of heat and of the wind at three frequencies") {
+    const auto at = [](double frequency_hz, double wind_m_s) {
+        SonarConfig config = imaging();
+        config.instrument.frequency_hz = frequency_hz;
+        return levels_of(config, {.wind_m_s = wind_m_s});
+    };
+    CHECK(std::fabs(at(1e5, 0.0).thermal_noise_db - 25.0) < 1e-9);
+    CHECK(std::fabs(at(4e5, 0.0).thermal_noise_db - 37.0412) < 1e-3);
+    CHECK(std::fabs(at(1e6, 0.0).thermal_noise_db - 45.0) < 1e-9);
+    CHECK(std::fabs(at(1e3, 0.0).wind_noise_db - 44.1549) < 1e-3);
+    CHECK(std::fabs(at(1e4, 5.0).wind_noise_db - 46.0891) < 1e-3);
+    CHECK(std::fabs(at(3.8e4, 4.0).wind_noise_db - 33.2221) < 1e-3);
+}
 
-    // 4 pi over the integral of the pattern over all directions. With u and v the sines along the
-    // two sides a direction has du dv / sqrt(1 - u^2 - v^2).
-    TEST_CASE("levels: directivity of line, rectangle and disc is the integral of the pattern") {
-        for (const double side_lobe_db : {-13.3, -26.8, -42.0}) {
-            CAPTURE(side_lobe_db);
-            const LineArray line = line_array(radians(4.0), side_lobe_db);
-            const double of_line = 2.0 * pi * over_sines([&](double u) {
-                                       return std::pow(line_pattern(line, u), 2.0);
-                                   });
-            CHECK(std::fabs(db_of_power(line_directivity(line) * of_line / (4.0 * pi))) < 0.05);
-            const LineArray across = line_array(radians(20.0), side_lobe_db);
-            const double of_rectangle = over_sines([&](double u) {
-                const double along = std::pow(line_pattern(line, u), 2.0);
-                double sum = 0.0;
-                for (int k = 0; k < 400; ++k) {  // over the angle whose sine is v, over its part
-                    const double v = 2.0 * (k + 0.5) / 400 - 1.0;
-                    const double rest = 1.0 - u * u - v * v;
-                    if (rest > 1e-4)
-                        sum += std::pow(line_pattern(across, v), 2.0) / std::sqrt(rest) * 2.0 / 400;
-                }
-                return along * sum;
-            });
-            CHECK(std::fabs(db_of_power(rectangle_directivity(line, across) * of_rectangle /
-                                        (4.0 * pi))) < 0.2);
-        }
-        for (const double width_deg : {3.0, 7.0, 15.0}) {
-            CAPTURE(width_deg);
-            const double scale = piston_scale(radians(width_deg));
+// 4 pi over the integral of the pattern over all directions. With u and v the sines along the
+// two sides a direction has du dv / sqrt(1 - u^2 - v^2).
+TEST_CASE("levels: directivity of line, rectangle and disc is the integral of the pattern") {
+    for (const double side_lobe_db : {-13.3, -26.8, -42.0}) {
+        CAPTURE(side_lobe_db);
+        const LineArray line = line_array(radians(4.0), side_lobe_db);
+        const double of_line =
+            2.0 * pi * over_sines([&](double u) { return std::pow(line_pattern(line, u), 2.0); });
+        CHECK(std::fabs(db_of_power(line_directivity(line) * of_line / (4.0 * pi))) < 0.05);
+        const LineArray across = line_array(radians(20.0), side_lobe_db);
+        const double of_rectangle = over_sines([&](double u) {
+            const double along = std::pow(line_pattern(line, u), 2.0);
             double sum = 0.0;
-            for (int k = 0; k < steps; ++k) {
-                const double angle = 0.5 * pi * (k + 0.5) / steps;
-                sum += 2.0 * pi * std::pow(piston_pattern(scale * std::sin(angle)), 2.0) *
-                       std::sin(angle) * 0.5 * pi / steps;
+            for (int k = 0; k < 400; ++k) {  // over the angle whose sine is v, over its part
+                const double v = 2.0 * (k + 0.5) / 400 - 1.0;
+                const double rest = 1.0 - u * u - v * v;
+                if (rest > 1e-4)
+                    sum += std::pow(line_pattern(across, v), 2.0) / std::sqrt(rest) * 2.0 / 400;
             }
-            CHECK(std::fabs(db_of_power(piston_directivity(radians(width_deg)) * sum /
-                                        (4.0 * pi))) < 0.2);
+            return along * sum;
+        });
+        CHECK(std::fabs(db_of_power(rectangle_directivity(line, across) * of_rectangle /
+                                    (4.0 * pi))) < 0.2);
+    }
+    for (const double width_deg : {3.0, 7.0, 15.0}) {
+        CAPTURE(width_deg);
+        const double scale = piston_scale(radians(width_deg));
+        double sum = 0.0;
+        for (int k = 0; k < steps; ++k) {
+            const double angle = 0.5 * pi * (k + 0.5) / steps;
+            sum += 2.0 * pi * std::pow(piston_pattern(scale * std::sin(angle)), 2.0) *
+                   std::sin(angle) * 0.5 * pi / steps;
         }
+        CHECK(std::fabs(db_of_power(piston_directivity(radians(width_deg)) * sum / (4.0 * pi))) <
+              0.2);
     }
+}
 
-    TEST_CASE("levels: the pulse's band and length are those of the range response") {
-        for (const double side_lobe_db : {-20.0, -30.0, -42.0}) {
-            CAPTURE(side_lobe_db);
-            constexpr double bins = 12.0;  // wide, so that the spline follows the pulse
-            const PulseConfig pulse{.side_lobe_db = side_lobe_db};
-            const PulseBand band = pulse_band(pulse, 0.1, 1500.0);
-            const RangeTaps taps = range_taps(bins, side_lobe_db, false);
-            double energy = 0.0;
-            for (std::size_t m = 0; m < taps.taps.size(); ++m) {
-                energy += 2.0 / 3.0 * taps.taps[m] * taps.taps[m];
-                if (m > 0) energy += 1.0 / 3.0 * taps.taps[m] * taps.taps[m - 1];
-            }
-            CHECK(std::fabs(band.length_m / (0.1 / bins * energy) - 1.0) < 0.02);
-            // Parseval: the energy of a pulse in time is that of its band.
-            CHECK(std::fabs(band.noise_hz /
-                                (band.sweep_hz * band.sweep_hz * 2.0 * band.length_m / 1500.0) -
-                            1.0) < 1e-9);
+TEST_CASE("levels: the pulse's band and length are those of the range response") {
+    for (const double side_lobe_db : {-20.0, -30.0, -42.0}) {
+        CAPTURE(side_lobe_db);
+        constexpr double bins = 12.0;  // wide, so that the spline follows the pulse
+        const PulseConfig pulse{.side_lobe_db = side_lobe_db};
+        const PulseBand band = pulse_band(pulse, 0.1, 1500.0);
+        const RangeTaps taps = range_taps(bins, side_lobe_db, false);
+        double energy = 0.0;
+        for (std::size_t m = 0; m < taps.taps.size(); ++m) {
+            energy += 2.0 / 3.0 * taps.taps[m] * taps.taps[m];
+            if (m > 0) energy += 1.0 / 3.0 * taps.taps[m] * taps.taps[m - 1];
         }
-        const PulseConfig uniform{.side_lobe_db = -13.0};
-        CHECK(std::fabs(pulse_band(uniform, 0.1, 1500.0).noise_hz - 0.8859 * 7500.0) < 10.0);
-        const PulseConfig coded{.duration_s = 1e-3, .side_lobe_db = -13.0};
-        CHECK(std::fabs(pulse_band(coded, 0.1, 1500.0).noise_hz - 1000.0) < 1e-6);
+        CHECK(std::fabs(band.length_m / (0.1 / bins * energy) - 1.0) < 0.02);
+        // Parseval: the energy of a pulse in time is that of its band.
+        CHECK(std::fabs(band.noise_hz /
+                            (band.sweep_hz * band.sweep_hz * 2.0 * band.length_m / 1500.0) -
+                        1.0) < 1e-9);
     }
+    const PulseConfig uniform{.side_lobe_db = -13.0};
+    CHECK(std::fabs(pulse_band(uniform, 0.1, 1500.0).noise_hz - 0.8859 * 7500.0) < 10.0);
+    const PulseConfig coded{.duration_s = 1e-3, .side_lobe_db = -13.0};
+    CHECK(std::fabs(pulse_band(coded, 0.1, 1500.0).noise_hz - 1000.0) < 1e-6);
+}
 
-    // 170.8 + 10 log 50 + DI. The transmitter sends into 60 degrees, and into sqrt(2) times 12
-    // degrees of elevation, of which a uniform aperture has 0.886 lambda / W.
-    TEST_CASE("levels: those of an instrument by hand") {
-        SonarConfig config = imaging();
-        config.instrument.beam.width_deg = 1.0;
-        config.instrument.pulse = {.resolution_m = 0.1, .duration_s = 1e-3, .side_lobe_db = -13.3};
-        const InstrumentLevels levels = levels_of(config, {.wind_m_s = 0.0});
-        const double height = 0.8859 / radians(12.0 * std::sqrt(2.0));
-        const double length = 0.8859 / radians(1.0);
-        const double source_db =
-            170.8 + db_of_power(50.0) + db_of_power(4.0 * pi * height / radians(60.0));
-        CHECK(std::fabs(levels.source_level_db - source_db) < 0.05);
-        const double noise_db = -15.0 + 2.0 * db_of_power(900.0) + 6.0 + db_of_power(2.0) + 30.0 -
-                                db_of_power(4.0 * pi * length * height);
-        CHECK(std::fabs(levels.noise_db - noise_db) < 0.05);
-        CHECK(levels_of(config, {.wind_m_s = 20.0}).noise_db > levels.noise_db);
-    }
+// 170.8 + 10 log 50 + DI. The transmitter sends into 60 degrees, and into sqrt(2) times 12
+// degrees of elevation, of which a uniform aperture has 0.886 lambda / W.
+TEST_CASE("levels: those of an instrument by hand") {
+    SonarConfig config = imaging();
+    config.instrument.beam.width_deg = 1.0;
+    config.instrument.pulse = {.resolution_m = 0.1, .duration_s = 1e-3, .side_lobe_db = -13.3};
+    const InstrumentLevels levels = levels_of(config, {.wind_m_s = 0.0});
+    const double height = 0.8859 / radians(12.0 * std::sqrt(2.0));
+    const double length = 0.8859 / radians(1.0);
+    const double source_db =
+        170.8 + db_of_power(50.0) + db_of_power(4.0 * pi * height / radians(60.0));
+    CHECK(std::fabs(levels.source_level_db - source_db) < 0.05);
+    const double noise_db = -15.0 + 2.0 * db_of_power(900.0) + 6.0 + db_of_power(2.0) + 30.0 -
+                            db_of_power(4.0 * pi * length * height);
+    CHECK(std::fabs(levels.noise_db - noise_db) < 0.05);
+    CHECK(levels_of(config, {.wind_m_s = 20.0}).noise_db > levels.noise_db);
+}
 
-    TEST_CASE("levels: relative ones are as far below the source as absolute ones") {
-        SonarConfig config = imaging();
-        const InstrumentLevels absolute = levels_of(config);
-        CHECK(!absolute.relative);
-        config.instrument.source_level_db = 0.0;
-        const InstrumentLevels relative = levels_of(config);
-        CHECK(relative.relative);
-        CHECK(std::fabs(relative.noise_db - absolute.noise_db + absolute.source_level_db) < 1e-9);
-        CHECK(std::fabs(relative.full_scale_db - absolute.full_scale_db +
-                        absolute.source_level_db) < 1e-9);
-        // A noise below 0 dB says that levels are relative.
-        config.instrument.source_level_db.reset();
-        config.instrument.receiver.noise_db = -110.0;
-        CHECK(levels_of(config).source_level_db == 0.0);
-    }
+TEST_CASE("levels: relative ones are as far below the source as absolute ones") {
+    SonarConfig config = imaging();
+    const InstrumentLevels absolute = levels_of(config);
+    CHECK(!absolute.relative);
+    config.instrument.source_level_db = 0.0;
+    const InstrumentLevels relative = levels_of(config);
+    CHECK(relative.relative);
+    CHECK(std::fabs(relative.noise_db - absolute.noise_db + absolute.source_level_db) < 1e-9);
+    CHECK(std::fabs(relative.full_scale_db - absolute.full_scale_db + absolute.source_level_db) <
+          1e-9);
+    // A noise below 0 dB says that levels are relative.
+    config.instrument.source_level_db.reset();
+    config.instrument.receiver.noise_db = -110.0;
+    CHECK(levels_of(config).source_level_db == 0.0);
+}
 
-    TEST_CASE("levels: full scale holds the speckle of sand, and noise at two thirds at most") {
-        SonarConfig config = imaging();
-        ReceiverConfig& receiver = config.instrument.receiver;
-        receiver.noise_db = 150.0;  // louder than sand
-        for (const Companding companding :
-             {Companding::gamma, Companding::log, Companding::linear}) {
-            CAPTURE(static_cast<int>(companding));
-            receiver.companding = companding;
-            receiver.full_scale_db.reset();
-            const Sonar sonar = make_sonar(config, {});
-            const CalibratedModel& model = calibrated_model_of(sonar);
-            const double noise_db = 150.0 + tvg_db(receiver, model.absorption_db_per_m, 21.0);
-            Ping ping;
-            ping.intensity = {
-                static_cast<float>(power_of_db(noise_db - model.levels.full_scale_db))};
-            CHECK(model.raw(ping)[0] == 170);
-        }
-        // Less noise than sand does not change it: ln 100 above its mean, or three times its
-        // amplitude.
-        for (const double noise_db : {20.0, 30.0}) {
-            receiver.noise_db = noise_db;
-            receiver.companding = Companding::gamma;
-            const InstrumentLevels shown = levels_of(config);
-            CHECK(std::fabs(shown.full_scale_db - shown.sand_db - 6.632) < 1e-3);
-            receiver.companding = Companding::linear;
-            const InstrumentLevels recorded = levels_of(config);
-            CHECK(std::fabs(recorded.full_scale_db - recorded.sand_db - 9.542) < 1e-3);
-        }
-    }
-
-    // The sonar looks down at a floor of sand, which the axis meets at half of the range and at 20
-    // degrees of grazing, where the pattern is flat. Powers of speckle are exponential. The
-    // quantile of some 4,000 independent bins has a standard deviation of 0.15 dB.
-    TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") {
-        SonarConfig config = imaging();
-        config.azimuth_bins = 128;
-        config.range_bins = 400;
-        config.instrument.receiver.noise_db = -300.0;
-        config.instrument.speckle.texture = 0.0;  // the rule is that of exponential powers
-        const double half_m = 0.5 * config.range_max_m;
-        const double down_rad = radians(20.0);
+TEST_CASE("levels: full scale holds the speckle of sand, and noise at two thirds at most") {
+    SonarConfig config = imaging();
+    ReceiverConfig& receiver = config.instrument.receiver;
+    receiver.noise_db = 150.0;  // louder than sand
+    for (const Companding companding : {Companding::gamma, Companding::log, Companding::linear}) {
+        CAPTURE(static_cast<int>(companding));
+        receiver.companding = companding;
+        receiver.full_scale_db.reset();
         const Sonar sonar = make_sonar(config, {});
-        Scene scene = shapes::empty_scene();
-        scene.materials = {example_sand()};
-        shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-        const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
-        std::vector<float> near_half;
-        for (std::uint32_t number = 0; number < 4; ++number) {
-            const Ping ping =
-                render_ping(sonar, scene, *engine, look, {.seed = number + 1, .ping = 0});
-            const int middle = static_cast<int>((half_m - config.range_min_m) / 0.05);
-            for (int i = middle - 10; i < middle + 10; ++i) {
-                for (int j = 0; j < ping.beams; ++j)
-                    near_half.push_back(ping.intensity[i * ping.beams + j]);
-            }
+        const CalibratedModel& model = calibrated_model_of(sonar);
+        const double noise_db = 150.0 + tvg_db(receiver, model.absorption_db_per_m, 21.0);
+        Ping ping;
+        ping.intensity = {static_cast<float>(power_of_db(noise_db - model.levels.full_scale_db))};
+        CHECK(model.raw(ping)[0] == 170);
+    }
+    // Less noise than sand does not change it: ln 100 above its mean, or three times its
+    // amplitude.
+    for (const double noise_db : {20.0, 30.0}) {
+        receiver.noise_db = noise_db;
+        receiver.companding = Companding::gamma;
+        const InstrumentLevels shown = levels_of(config);
+        CHECK(std::fabs(shown.full_scale_db - shown.sand_db - 6.632) < 1e-3);
+        receiver.companding = Companding::linear;
+        const InstrumentLevels recorded = levels_of(config);
+        CHECK(std::fabs(recorded.full_scale_db - recorded.sand_db - 9.542) < 1e-3);
+    }
+}
+
+// The sonar looks down at a floor of sand, which the axis meets at half of the range and at 20
+// degrees of grazing, where the pattern is flat. Powers of speckle are exponential. The
+// quantile of some 4,000 independent bins has a standard deviation of 0.15 dB.
+TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") {
+    SonarConfig config = imaging();
+    config.azimuth_bins = 128;
+    config.range_bins = 400;
+    config.instrument.receiver.noise_db = -300.0;
+    config.instrument.speckle.texture = 0.0;  // the rule is that of exponential powers
+    const double half_m = 0.5 * config.range_max_m;
+    const double down_rad = radians(20.0);
+    const Sonar sonar = make_sonar(config, {});
+    Scene scene = shapes::empty_scene();
+    scene.materials = {example_sand()};
+    shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
+    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
+    std::vector<float> near_half;
+    for (std::uint32_t number = 0; number < 4; ++number) {
+        const Ping ping = render_ping(sonar, scene, *engine, look, {.seed = number + 1, .ping = 0});
+        const int middle = static_cast<int>((half_m - config.range_min_m) / 0.05);
+        for (int i = middle - 10; i < middle + 10; ++i) {
+            for (int j = 0; j < ping.beams; ++j)
+                near_half.push_back(ping.intensity[i * ping.beams + j]);
         }
-        const auto at = near_half.begin() + static_cast<std::ptrdiff_t>(0.99 * near_half.size());
-        std::ranges::nth_element(near_half, at);
-        CHECK(std::fabs(db_of_power(*at / sonar.settings.model->info.white)) < 1.0);
-
-        // A profiler sees its bottom from above, so no rule covers it; nor is white above full
-        // scale.
-        config.elevation_deg = 4.0;
-        CHECK(make_sonar(config, {}).settings.model->info.white == 0.0);
-        config = imaging();
-        config.instrument.source_level_db = 0.0;
-        config.instrument.receiver.full_scale_db = -200.0;
-        CHECK(make_sonar(config, {}).settings.model->info.white == 1.0);
     }
+    const auto at = near_half.begin() + static_cast<std::ptrdiff_t>(0.99 * near_half.size());
+    std::ranges::nth_element(near_half, at);
+    CHECK(std::fabs(db_of_power(*at / sonar.settings.model->info.white)) < 1.0);
 
-    // At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. After the gain both
-    // echoes are equally strong.
-    TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
-        SonarConfig config = levels_sonar(SonarKind::imaging);
-        config.instrument.frequency_hz = 1e7;
-        config.instrument.speckle.mode = SpeckleMode::none;
+    // A profiler sees its bottom from above, so no rule covers it; nor is white above full
+    // scale.
+    config.elevation_deg = 4.0;
+    CHECK(make_sonar(config, {}).settings.model->info.white == 0.0);
+    config = imaging();
+    config.instrument.source_level_db = 0.0;
+    config.instrument.receiver.full_scale_db = -200.0;
+    CHECK(make_sonar(config, {}).settings.model->info.white == 1.0);
+}
+
+// At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. After the gain both
+// echoes are equally strong.
+TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
+    SonarConfig config = levels_sonar(SonarKind::imaging);
+    config.instrument.frequency_hz = 1e7;
+    config.instrument.speckle.mode = SpeckleMode::none;
+    const Sonar sonar = make_sonar(config, {});
+    CHECK(2.0 * 4.5 * calibrated_model_of(sonar).absorption_db_per_m > 190.0);  // 10 lg e^43.7
+    // Nearer than 2 m the plate is cut into points of several columns of the grid.
+    const double near = total(image_of(sonar, {plate_ahead(2.0, 0.01)}, false));
+    const double far = total(image_of(sonar, {plate_ahead(4.5, 0.01)}, false));
+    CHECK(near > 0.0);
+    // The gain is that of a bin's middle. An echo at a bin's edge is off by 2 alpha dr / 2.
+    const double edge_db =
+        calibrated_model_of(sonar).absorption_db_per_m * sonar.settings.view.bin_m();
+    CHECK(std::fabs(db_of_power(far / near)) < edge_db);
+}
+
+TEST_CASE("levels: no legal level or range makes a value that is not finite") {
+    std::mt19937 draw(25);
+    const auto number = [&](double low, double high) {
+        const auto which = draw() % 4;
+        const double share = std::uniform_real_distribution<>(0.0, 1.0)(draw);
+        return which == 0 ? low : which == 1 ? high : low + share * (high - low);
+    };
+    for (int trial = 0; trial < 100; ++trial) {
+        SonarConfig config = levels_sonar(kinds[draw() % kinds.size()]);
+        InstrumentConfig& instrument = config.instrument;
+        set_range(config, 0.0, std::pow(10.0, number(-3.0, 9.0)), 32);
+        instrument.frequency_hz = std::pow(10.0, number(3.0, 7.0));
+        instrument.source_level_db = number(-300.0, 300.0);
+        instrument.receiver.noise_db = number(-300.0, 300.0);
+        instrument.receiver.full_scale_db = number(-300.0, 300.0);
+        instrument.receiver.tvg_log = number(0.0, 60.0);
+        instrument.receiver.tvg_from_m = number(0.0, 1.0) < 0.5 ? 0.0 : 1e9;
+        instrument.speckle.mode = static_cast<SpeckleMode>(draw() % 3);
+        const double range = number(0.001, 1.0) * config.range_max_m;
         const Sonar sonar = make_sonar(config, {});
-        CHECK(2.0 * 4.5 * calibrated_model_of(sonar).absorption_db_per_m > 190.0);  // 10 lg e^43.7
-        // Nearer than 2 m the plate is cut into points of several columns of the grid.
-        const double near = total(image_of(sonar, {plate_ahead(2.0, 0.01)}, false));
-        const double far = total(image_of(sonar, {plate_ahead(4.5, 0.01)}, false));
-        CHECK(near > 0.0);
-        // The gain is that of a bin's middle. An echo at a bin's edge is off by 2 alpha dr / 2.
-        const double edge_db =
-            calibrated_model_of(sonar).absorption_db_per_m * sonar.settings.view.bin_m();
-        CHECK(std::fabs(db_of_power(far / near)) < edge_db);
-    }
-
-    TEST_CASE("levels: no legal level or range makes a value that is not finite") {
-        std::mt19937 draw(25);
-        const auto number = [&](double low, double high) {
-            const auto which = draw() % 4;
-            const double share = std::uniform_real_distribution<>(0.0, 1.0)(draw);
-            return which == 0 ? low : which == 1 ? high : low + share * (high - low);
-        };
-        for (int trial = 0; trial < 100; ++trial) {
-            SonarConfig config = levels_sonar(kinds[draw() % kinds.size()]);
-            InstrumentConfig& instrument = config.instrument;
-            set_range(config, 0.0, std::pow(10.0, number(-3.0, 9.0)), 32);
-            instrument.frequency_hz = std::pow(10.0, number(3.0, 7.0));
-            instrument.source_level_db = number(-300.0, 300.0);
-            instrument.receiver.noise_db = number(-300.0, 300.0);
-            instrument.receiver.full_scale_db = number(-300.0, 300.0);
-            instrument.receiver.tvg_log = number(0.0, 60.0);
-            instrument.receiver.tvg_from_m = number(0.0, 1.0) < 0.5 ? 0.0 : 1e9;
-            instrument.speckle.mode = static_cast<SpeckleMode>(draw() % 3);
-            const double range = number(0.001, 1.0) * config.range_max_m;
-            const Sonar sonar = make_sonar(config, {});
-            for (const bool noise : {false, true}) {
-                CAPTURE(trial);
-                CHECK(std::ranges::all_of(
-                    image_of(sonar, {plate_ahead(range, 0.01)}, noise),
-                    [](float value) { return value >= 0.0F && value <= max_value; }));
-            }
+        for (const bool noise : {false, true}) {
+            CAPTURE(trial);
+            CHECK(std::ranges::all_of(
+                image_of(sonar, {plate_ahead(range, 0.01)}, noise),
+                [](float value) { return value >= 0.0F && value <= max_value; }));
         }
     }
 }

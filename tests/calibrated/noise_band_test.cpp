@@ -1,7 +1,6 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/filtered_noise.h"
 #include "simulate/calibrated/range_response.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/statistics.h"
@@ -89,97 +88,95 @@ void check_noise(const NoiseOfPings& noise) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
-        for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
-            for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
-                CAPTURE_ALL(bins, side_lobe_db);
-                const std::vector<float> taps = noise_taps(bins, side_lobe_db);
-                CHECK(std::fabs(tap_correlation(taps, 0) - 1.0) < 1e-6);
-                for (const int lag : {1, 2, 3, 4, 6}) {
-                    // The taps stop after three widths of the pulse, as those of the echoes do. A
-                    // band without taper has many more side lobes.
-                    const double off =
-                        tap_correlation(taps, lag) - pulse_amplitude(bins, side_lobe_db, lag);
-                    CHECK(std::fabs(off) < (side_lobe_db < -25.0 ? 0.06 : 0.14));
-                }
+TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
+    for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
+        for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
+            CAPTURE_ALL(bins, side_lobe_db);
+            const std::vector<float> taps = noise_taps(bins, side_lobe_db);
+            CHECK(std::fabs(tap_correlation(taps, 0) - 1.0) < 1e-6);
+            for (const int lag : {1, 2, 3, 4, 6}) {
+                // The taps stop after three widths of the pulse, as those of the echoes do. A
+                // band without taper has many more side lobes.
+                const double off =
+                    tap_correlation(taps, lag) - pulse_amplitude(bins, side_lobe_db, lag);
+                CHECK(std::fabs(off) < (side_lobe_db < -25.0 ? 0.06 : 0.14));
             }
         }
     }
+}
 
-    TEST_CASE("noise: it is white where the pulse is shorter than a bin") {
-        for (const double bins : {1e-9, 0.05, 0.1, 0.3})
-            CHECK(noise_taps(bins, -30.0) == std::vector<float>{1.0F});
+TEST_CASE("noise: it is white where the pulse is shorter than a bin") {
+    for (const double bins : {1e-9, 0.05, 0.1, 0.3})
+        CHECK(noise_taps(bins, -30.0) == std::vector<float>{1.0F});
+}
+
+TEST_CASE("noise: that of a bin does not depend on the bins before it") {
+    const std::vector<float> taps = noise_taps(5.0, -25.0);
+    const NoiseChannels channels{.firsts = 4, .seconds = 3};
+    FilteredNoise all(channels, taps, noise_key);
+    for (int row = 0; row <= 40; row += lanes)
+        all.go_to(row);
+    FilteredNoise one(channels, taps, noise_key);
+    one.go_to(40);
+    for (int channel = 0; channel < channels.count(); ++channel)
+        CHECK(all.of(channel).re == one.of(channel).re);
+}
+
+TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the pulse is") {
+    // Whatever its level is, and that of the source.
+    struct Case {
+        SonarKind kind;
+        double source_db, noise_db;
+        std::uint32_t pings;
+    };
+    for (const Case& c : {Case{SonarKind::imaging, 300.0, -90.0, 40},
+                          Case{SonarKind::profiling, -100.0, -299.0, 40},
+                          Case{SonarKind::sidescan, -300.0, 300.0, 1500},
+                          Case{SonarKind::echosounder, 150.0, -299.0, 3000},
+                          Case{SonarKind::scanning, 0.0, 300.0, 3000}}) {
+        CAPTURE(static_cast<int>(c.kind));
+        check_noise(NoiseOfPings(noisy_sonar(c.kind, c.source_db, c.noise_db), c.pings));
     }
+}
 
-    TEST_CASE("noise: that of a bin does not depend on the bins before it") {
-        const std::vector<float> taps = noise_taps(5.0, -25.0);
-        const NoiseChannels channels{.firsts = 4, .seconds = 3};
-        FilteredNoise all(channels, taps, noise_key);
-        for (int row = 0; row <= 40; row += lanes)
-            all.go_to(row);
-        FilteredNoise one(channels, taps, noise_key);
-        one.go_to(40);
-        for (int channel = 0; channel < channels.count(); ++channel)
-            CHECK(all.of(channel).re == one.of(channel).re);
-    }
-
-    TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the pulse is") {
-        // Whatever its level is, and that of the source.
-        struct Case {
-            SonarKind kind;
-            double source_db, noise_db;
-            std::uint32_t pings;
-        };
-        for (const Case& c : {Case{SonarKind::imaging, 300.0, -90.0, 40},
-                              Case{SonarKind::profiling, -100.0, -299.0, 40},
-                              Case{SonarKind::sidescan, -300.0, 300.0, 1500},
-                              Case{SonarKind::echosounder, 150.0, -299.0, 3000},
-                              Case{SonarKind::scanning, 0.0, 300.0, 3000}}) {
-            CAPTURE(static_cast<int>(c.kind));
-            check_noise(NoiseOfPings(noisy_sonar(c.kind, c.source_db, c.noise_db), c.pings));
+TEST_CASE("noise: that of the converter is the same at all ranges, whatever the gain") {
+    for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan}) {
+        SonarConfig config = calibrated(default_sonar(kind), 2e5);
+        set_range(config, 1.0, 17.0, 400);
+        config.instrument.receiver.noise_db = -300.0;
+        config.instrument.receiver.full_scale_db = 150.0;
+        config.instrument.receiver.converter_noise_db = -20.0;
+        config.instrument.receiver.tvg_log = 40.0;
+        const Sonar sonar = make_sonar(config, {});
+        std::array<std::vector<double>, 4> quarters;
+        const std::uint32_t pings = kind == SonarKind::imaging ? 4 : 200;
+        for (std::uint32_t ping = 0; ping < pings; ++ping) {
+            const std::vector<float> image =
+                image_of_samples(calibrated_model_of(sonar), sonar.settings.view, {}, {.random = 2},
+                                 {}, {5, 6, ping});
+            for (std::size_t k = 0; k < image.size(); ++k)
+                quarters[4 * k / image.size()].push_back(image[k]);
         }
+        // 40,000 exponential values or more, correlated over a few: 0.01 within 2.5 %.
+        for (const std::vector<double>& values : quarters)
+            CHECK(mean(values) == test::approx(0.01).epsilon(0.025));
     }
+}
 
-    TEST_CASE("noise: that of the converter is the same at all ranges, whatever the gain") {
-        for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan}) {
-            SonarConfig config = calibrated(default_sonar(kind), 2e5);
-            set_range(config, 1.0, 17.0, 400);
-            config.instrument.receiver.noise_db = -300.0;
-            config.instrument.receiver.full_scale_db = 150.0;
-            config.instrument.receiver.converter_noise_db = -20.0;
-            config.instrument.receiver.tvg_log = 40.0;
+TEST_CASE("levels: noise_db -300 is no noise, whatever the gain") {
+    for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan}) {
+        SonarConfig config = bare_sonar(default_sonar(kind), 1e6);
+        config.instrument.receiver.tvg_log = 40.0;
+        config.instrument.receiver.tvg_absorption = true;
+        for (const double source_db : {0.0, 200.0}) {
+            config.instrument.source_level_db = source_db;
+            set_range(config, 200.0, 400.0, 100);
             const Sonar sonar = make_sonar(config, {});
-            std::array<std::vector<double>, 4> quarters;
-            const std::uint32_t pings = kind == SonarKind::imaging ? 4 : 200;
-            for (std::uint32_t ping = 0; ping < pings; ++ping) {
-                const std::vector<float> image =
-                    image_of_samples(calibrated_model_of(sonar), sonar.settings.view, {},
-                                     {.random = 2}, {}, {5, 6, ping});
-                for (std::size_t k = 0; k < image.size(); ++k)
-                    quarters[4 * k / image.size()].push_back(image[k]);
-            }
-            // 40,000 exponential values or more, correlated over a few: 0.01 within 2.5 %.
-            for (const std::vector<double>& values : quarters)
-                CHECK(mean(values) == test::approx(0.01).epsilon(0.025));
-        }
-    }
-
-    TEST_CASE("levels: noise_db -300 is no noise, whatever the gain") {
-        for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan}) {
-            SonarConfig config = bare_sonar(default_sonar(kind), 1e6);
-            config.instrument.receiver.tvg_log = 40.0;
-            config.instrument.receiver.tvg_absorption = true;
-            for (const double source_db : {0.0, 200.0}) {
-                config.instrument.source_level_db = source_db;
-                set_range(config, 200.0, 400.0, 100);
-                const Sonar sonar = make_sonar(config, {});
-                const auto image = image_of_samples(calibrated_model_of(sonar), sonar.settings.view,
-                                                    {}, {.random = 2});
-                CAPTURE_ALL(name_of(kind), source_db);
-                CHECK(std::ranges::max(image) == 0.0F);
-                CHECK(std::ranges::max(calibrated_model_of(sonar).noise_values) == 0.0F);
-            }
+            const auto image = image_of_samples(calibrated_model_of(sonar), sonar.settings.view, {},
+                                                {.random = 2});
+            CAPTURE_ALL(name_of(kind), source_db);
+            CHECK(std::ranges::max(image) == 0.0F);
+            CHECK(std::ranges::max(calibrated_model_of(sonar).noise_values) == 0.0F);
         }
     }
 }

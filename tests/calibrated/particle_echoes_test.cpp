@@ -1,5 +1,4 @@
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/form_look.h"
 #include "support/labelled.h"
 #include "support/patches.h"
@@ -40,131 +39,128 @@ double equation(const CalibratedModel& model, double range_m) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // EL = SL + TS + D - 40 log r - 2 alpha r with SL = 0. The two-way pattern D of a disc is the
-    // fourth power of 2 J1(x) / x, x = k a sin(angle). The taps of a pulse of several bins are not
-    // below 0.
-    TEST_CASE("particles: the level of a target in an echosounder, at every place") {
-        const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
-        const CalibratedModel model =
-            calibrated_model(instrument_of(Aperture::piston, 7.0, 0.5), {}, view, {});
-        for (const double range_m : {4.0, 9.03, 17.5}) {
-            for (const double off_deg : {0.0, 2.0, 3.5, 6.0}) {
-                CAPTURE_ALL(range_m, off_deg);
-                const double off = radians(off_deg);
-                const Eigen::Vector3f place =
-                    (range_m *
-                     Eigen::Vector3d(std::cos(off), 0.6 * std::sin(off), -0.8 * std::sin(off)))
-                        .cast<float>();
-                const std::vector<float> image =
-                    image_of_traced(model, view, ping_of_points({place}), {});
-                const double pattern = piston_pattern(piston_scale(radians(7.0)) * std::sin(off));
-                const double expected = equation(model, range_m) * std::pow(pattern, 4);
-                CHECK(std::fabs(db_of_power(echo_of_beam(model, image, 1, 0) / expected)) < 0.005);
-            }
-        }
-    }
-
-    // In a fan the beam that looks at the target has all of it; in elevation the two-way pattern is
-    // a line array's, at half its width down by a factor of two.
-    TEST_CASE("particles: the level of a target in the beam of a fan, and by elevation") {
-        InstrumentConfig config = instrument_of(Aperture::line, 2.0, 0.1);
-        config.beam.elevation_width_deg = 20.0;
-        const View view = view_of(ViewShape::fan, 60.0, 40.0, 61);
-        const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 61));
-        const auto level = [&](double elevation_deg) {
-            const double up = radians(elevation_deg);
+// EL = SL + TS + D - 40 log r - 2 alpha r with SL = 0. The two-way pattern D of a disc is the
+// fourth power of 2 J1(x) / x, x = k a sin(angle). The taps of a pulse of several bins are not
+// below 0.
+TEST_CASE("particles: the level of a target in an echosounder, at every place") {
+    const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
+    const CalibratedModel model =
+        calibrated_model(instrument_of(Aperture::piston, 7.0, 0.5), {}, view, {});
+    for (const double range_m : {4.0, 9.03, 17.5}) {
+        for (const double off_deg : {0.0, 2.0, 3.5, 6.0}) {
+            CAPTURE_ALL(range_m, off_deg);
+            const double off = radians(off_deg);
             const Eigen::Vector3f place =
-                (9.0 * Eigen::Vector3d(std::cos(up), 0.0, std::sin(up))).cast<float>();
+                (range_m *
+                 Eigen::Vector3d(std::cos(off), 0.6 * std::sin(off), -0.8 * std::sin(off)))
+                    .cast<float>();
             const std::vector<float> image =
                 image_of_traced(model, view, ping_of_points({place}), {});
-            return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
-        };
-        CHECK(std::fabs(level(0.0)) < 0.11);
-        CHECK(level(10.0) - level(0.0) == test::approx(db_of_power(0.5)).epsilon(0.02));
-    }
-
-    // With speckle a single target does not flicker, and two of one strength at one place add by
-    // their phases: the power is between 0 and 4 times that of one, |1 + exp(i phase)|^2.
-    TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
-        const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
-        InstrumentConfig config = instrument_of(Aperture::piston, 7.0, 0.1);
-        config.speckle.mode = SpeckleMode::scene;
-        const CalibratedModel model = calibrated_model(config, {}, view, {});
-        const auto peak = [&](const std::vector<Eigen::Vector3f>& places, std::uint32_t ping,
-                              std::uint64_t seed) {
-            const std::vector<float> image =
-                image_of_traced(model, view, ping_of_points(places), {}, {seed, 2, ping});
-            return *std::max_element(image.begin(), image.end());
-        };
-        const Eigen::Vector3f place{9.05F, 0.0F, 0.0F};
-        const float one = peak({place}, 0, 7);
-        CHECK(one == peak({place}, 5, 7));
-        CHECK(one == test::approx(peak({place}, 0, 8)).epsilon(1e-5));
-        // In the middle of a bin the amplitude is that of the pulse's middle tap.
-        const std::vector<float>& taps = model.amplitude_taps.taps;
-        const double middle = taps[taps.size() / 2];
-        CHECK(one == test::approx(middle * middle * equation(model, 9.05)).epsilon(1e-4));
-        double sum = 0.0;
-        constexpr int seeds = 200;
-        for (int seed = 0; seed < seeds; ++seed) {
-            const float both = peak({place, place}, 0, static_cast<std::uint64_t>(seed));
-            CHECK(both < 4.001F * one);
-            sum += both / one;
+            const double pattern = piston_pattern(piston_scale(radians(7.0)) * std::sin(off));
+            const double expected = equation(model, range_m) * std::pow(pattern, 4);
+            CHECK(std::fabs(db_of_power(echo_of_beam(model, image, 1, 0) / expected)) < 0.005);
         }
-        // The mean of 2 + 2 cos(phase) is 2, its deviation sqrt(2): 4 sigma of 200 are 0.4.
-        CHECK(sum / seeds == test::approx(2.0).epsilon(0.2));
     }
+}
 
-    // Targets are added eight at a time, in blocks of 256. What fills up the last eight has no
-    // echo. It had the amplitudes of the block before, in the first bins.
-    TEST_CASE("particles: nothing is added behind the last target of a block") {
-        View view = view_of(ViewShape::fan, 20.0, 40.0, 5);
-        view.range_bins = 2000;
-        InstrumentConfig config = instrument_of(Aperture::line, 4.0, 0.01);
-        config.speckle.mode = SpeckleMode::scene;
-        const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(20.0, 5));
-        std::vector<Eigen::Vector3f> places;  // from 2.5 m on
-        for (int k = 0; k < 300; ++k)
-            places.emplace_back(2.5F + 0.06F * static_cast<float>(k), 0.0F, 0.0F);
-        const std::vector<float> image = image_of_traced(model, view, ping_of_points(places), {});
-        constexpr int before = 40 * 5;  // bins from 2.0 to 2.4 m
-        CHECK(*std::max_element(image.begin(), image.begin() + before) < 1e-18F);
-        CHECK(*std::max_element(image.begin(), image.end()) > 1e-7F);
-    }
+// In a fan the beam that looks at the target has all of it; in elevation the two-way pattern is
+// a line array's, at half its width down by a factor of two.
+TEST_CASE("particles: the level of a target in the beam of a fan, and by elevation") {
+    InstrumentConfig config = instrument_of(Aperture::line, 2.0, 0.1);
+    config.beam.elevation_width_deg = 20.0;
+    const View view = view_of(ViewShape::fan, 60.0, 40.0, 61);
+    const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 61));
+    const auto level = [&](double elevation_deg) {
+        const double up = radians(elevation_deg);
+        const Eigen::Vector3f place =
+            (9.0 * Eigen::Vector3d(std::cos(up), 0.0, std::sin(up))).cast<float>();
+        const std::vector<float> image = image_of_traced(model, view, ping_of_points({place}), {});
+        return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
+    };
+    CHECK(std::fabs(level(0.0)) < 0.11);
+    CHECK(level(10.0) - level(0.0) == test::approx(db_of_power(0.5)).epsilon(0.02));
+}
 
-    // The object of the bins is the target, where it is stronger than the floor behind.
-    TEST_CASE("particles: labels at their bin and beam") {
-        SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
-        config.azimuth_deg = 60.0;
-        config.elevation_deg = 20.0;
-        config.azimuth_bins = 60;
-        set_range(config, 2.0, 22.0, 200);
-        Scene scene = empty_scene();
-        const std::uint32_t rock = add_material(scene, 0.4F);
-        add_quad(scene, {15.0F, -20.0F, -10.0F}, {15.0F, 20.0F, -10.0F}, {15.0F, 20.0F, 10.0F},
-                 {15.0F, -20.0F, 10.0F}, rock);
-        scene.instances.resize(1, "wall");
-        scene.instances.push_back("fish_1");
-        scene.materials.push_back({.name = "fish"});
-        Sonar sonar = make_sonar(config, {});
-        Particles particles;
-        Particle& fish = particles.all.emplace_back();
-        const double azimuth = radians(10.5);
-        fish.start_m = 8.05 * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.02);
-        fish.velocity_m_s = Eigen::Vector3d::Zero();
-        fish.section_m2 = section_m2;
-        fish.instance = 1;
-        fish.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
-        sonar.settings.particles = std::make_shared<const Particles>(particles);
-        const Labelled found = label(scene, sonar, {}, EngineKind::rays);
-        const std::size_t at = found.at(bin_at(sonar, 8.05), 40);
-        REQUIRE(found.labels.object[at] > 0);
-        CHECK(found.objects.objects[found.labels.object[at] - 1U].name == "fish_1");
-        CHECK(found.labels.share[at] == 1.0F);
-        CHECK(found.labels.material[at] == fish.material + 1);
-        CHECK(found.labels.elevation_rad[at] == test::approx(0.02).epsilon(0.02));
-        // A beam and a bin have that label, cut by the borders of two of each.
-        CHECK(std::ranges::count(found.labels.object, found.labels.object[at]) <= 9);
+// With speckle a single target does not flicker, and two of one strength at one place add by
+// their phases: the power is between 0 and 4 times that of one, |1 + exp(i phase)|^2.
+TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
+    const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
+    InstrumentConfig config = instrument_of(Aperture::piston, 7.0, 0.1);
+    config.speckle.mode = SpeckleMode::scene;
+    const CalibratedModel model = calibrated_model(config, {}, view, {});
+    const auto peak = [&](const std::vector<Eigen::Vector3f>& places, std::uint32_t ping,
+                          std::uint64_t seed) {
+        const std::vector<float> image =
+            image_of_traced(model, view, ping_of_points(places), {}, {seed, 2, ping});
+        return *std::max_element(image.begin(), image.end());
+    };
+    const Eigen::Vector3f place{9.05F, 0.0F, 0.0F};
+    const float one = peak({place}, 0, 7);
+    CHECK(one == peak({place}, 5, 7));
+    CHECK(one == test::approx(peak({place}, 0, 8)).epsilon(1e-5));
+    // In the middle of a bin the amplitude is that of the pulse's middle tap.
+    const std::vector<float>& taps = model.amplitude_taps.taps;
+    const double middle = taps[taps.size() / 2];
+    CHECK(one == test::approx(middle * middle * equation(model, 9.05)).epsilon(1e-4));
+    double sum = 0.0;
+    constexpr int seeds = 200;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const float both = peak({place, place}, 0, static_cast<std::uint64_t>(seed));
+        CHECK(both < 4.001F * one);
+        sum += both / one;
     }
+    // The mean of 2 + 2 cos(phase) is 2, its deviation sqrt(2): 4 sigma of 200 are 0.4.
+    CHECK(sum / seeds == test::approx(2.0).epsilon(0.2));
+}
+
+// Targets are added eight at a time, in blocks of 256. What fills up the last eight has no
+// echo. It had the amplitudes of the block before, in the first bins.
+TEST_CASE("particles: nothing is added behind the last target of a block") {
+    View view = view_of(ViewShape::fan, 20.0, 40.0, 5);
+    view.range_bins = 2000;
+    InstrumentConfig config = instrument_of(Aperture::line, 4.0, 0.01);
+    config.speckle.mode = SpeckleMode::scene;
+    const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(20.0, 5));
+    std::vector<Eigen::Vector3f> places;  // from 2.5 m on
+    for (int k = 0; k < 300; ++k)
+        places.emplace_back(2.5F + 0.06F * static_cast<float>(k), 0.0F, 0.0F);
+    const std::vector<float> image = image_of_traced(model, view, ping_of_points(places), {});
+    constexpr int before = 40 * 5;  // bins from 2.0 to 2.4 m
+    CHECK(*std::max_element(image.begin(), image.begin() + before) < 1e-18F);
+    CHECK(*std::max_element(image.begin(), image.end()) > 1e-7F);
+}
+
+// The object of the bins is the target, where it is stronger than the floor behind.
+TEST_CASE("particles: labels at their bin and beam") {
+    SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
+    config.azimuth_deg = 60.0;
+    config.elevation_deg = 20.0;
+    config.azimuth_bins = 60;
+    set_range(config, 2.0, 22.0, 200);
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.4F);
+    add_quad(scene, {15.0F, -20.0F, -10.0F}, {15.0F, 20.0F, -10.0F}, {15.0F, 20.0F, 10.0F},
+             {15.0F, -20.0F, 10.0F}, rock);
+    scene.instances.resize(1, "wall");
+    scene.instances.push_back("fish_1");
+    scene.materials.push_back({.name = "fish"});
+    Sonar sonar = make_sonar(config, {});
+    Particles particles;
+    Particle& fish = particles.all.emplace_back();
+    const double azimuth = radians(10.5);
+    fish.start_m = 8.05 * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.02);
+    fish.velocity_m_s = Eigen::Vector3d::Zero();
+    fish.section_m2 = section_m2;
+    fish.instance = 1;
+    fish.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    sonar.settings.particles = std::make_shared<const Particles>(particles);
+    const Labelled found = label(scene, sonar, {}, EngineKind::rays);
+    const std::size_t at = found.at(bin_at(sonar, 8.05), 40);
+    REQUIRE(found.labels.object[at] > 0);
+    CHECK(found.objects.objects[found.labels.object[at] - 1U].name == "fish_1");
+    CHECK(found.labels.share[at] == 1.0F);
+    CHECK(found.labels.material[at] == fish.material + 1);
+    CHECK(found.labels.elevation_rad[at] == test::approx(0.02).epsilon(0.02));
+    // A beam and a bin have that label, cut by the borders of two of each.
+    CHECK(std::ranges::count(found.labels.object, found.labels.object[at]) <= 9);
 }

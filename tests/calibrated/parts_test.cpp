@@ -5,112 +5,110 @@
 
 using namespace sonarsim;
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("fourier: the definition, and the inverse") {
-        for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
-            const Fourier fourier(size);
-            std::vector<ComplexLanes> data(size), scratch(size);
+TEST_CASE("fourier: the definition, and the inverse") {
+    for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
+        const Fourier fourier(size);
+        std::vector<ComplexLanes> data(size), scratch(size);
+        for (int n = 0; n < size; ++n) {
+            for (int lane = 0; lane < lanes; ++lane) {
+                data[n].re[lane] = static_cast<float>(std::sin(1.7 * n + lane));
+                data[n].im[lane] = static_cast<float>(std::cos(0.3 * n * n - lane));
+            }
+        }
+        const std::vector<ComplexLanes> before = data;
+        fourier.forward(data.data(), scratch.data());
+        for (int k = 0; k < size; ++k) {
+            std::complex<double> sum = 0.0;
             for (int n = 0; n < size; ++n) {
-                for (int lane = 0; lane < lanes; ++lane) {
-                    data[n].re[lane] = static_cast<float>(std::sin(1.7 * n + lane));
-                    data[n].im[lane] = static_cast<float>(std::cos(0.3 * n * n - lane));
-                }
+                sum += std::complex<double>(before[n].re[3], before[n].im[3]) *
+                       std::polar(1.0, -2.0 * pi * k * n / size);
             }
-            const std::vector<ComplexLanes> before = data;
-            fourier.forward(data.data(), scratch.data());
-            for (int k = 0; k < size; ++k) {
-                std::complex<double> sum = 0.0;
-                for (int n = 0; n < size; ++n) {
-                    sum += std::complex<double>(before[n].re[3], before[n].im[3]) *
-                           std::polar(1.0, -2.0 * pi * k * n / size);
-                }
-                CHECK(std::abs(sum - std::complex<double>(data[k].re[3], data[k].im[3])) < 2e-5);
-            }
-            fourier.backward(data.data(), scratch.data());
-            for (int n = 0; n < size; ++n)
-                CHECK(std::fabs(data[n].re[5] / static_cast<float>(size) - before[n].re[5]) < 1e-5);
+            CHECK(std::abs(sum - std::complex<double>(data[k].re[3], data[k].im[3])) < 2e-5);
         }
+        fourier.backward(data.data(), scratch.data());
+        for (int n = 0; n < size; ++n)
+            CHECK(std::fabs(data[n].re[5] / static_cast<float>(size) - before[n].re[5]) < 1e-5);
     }
+}
 
-    TEST_CASE("beams: noise has the power asked for and the correlation of the aperture") {
-        // A uniform aperture: the beams' complex amplitudes are correlated by sinc(u L), their
-        // powers by its square.
-        const LineArray array = line_array(radians(0.4), -13.3);
-        std::vector<double> sines;
-        sines.reserve(256);
-        for (int j = 0; j < 256; ++j)
-            sines.push_back((j - 127.5) / 255.0);
-        const Beamformer beams(array, sines, false);
-        Beamformer::Scratch scratch(beams);
-        std::vector<Lanes> out(beams.beams());
-        ElementNoiseOfPing noise = beams.noise_of_ping(
-            {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
-        double sum = 0.0;
-        double squares = 0.0;
-        double products = 0.0;
-        double count = 0.0;
-        for (int row = 0; row < 2000; row += lanes) {
-            beams.form(nullptr, row, &noise, scratch, out.data());
-            for (int j = 20; j < 235; ++j) {
-                for (int lane = 0; lane < lanes; ++lane) {
-                    const double p = out[j][lane];
-                    sum += p;
-                    squares += p * p;
-                    products += p * out[j + 1][lane];
-                    count += 1.0;
-                }
+TEST_CASE("beams: noise has the power asked for and the correlation of the aperture") {
+    // A uniform aperture: the beams' complex amplitudes are correlated by sinc(u L), their
+    // powers by its square.
+    const LineArray array = line_array(radians(0.4), -13.3);
+    std::vector<double> sines;
+    sines.reserve(256);
+    for (int j = 0; j < 256; ++j)
+        sines.push_back((j - 127.5) / 255.0);
+    const Beamformer beams(array, sines, false);
+    Beamformer::Scratch scratch(beams);
+    std::vector<Lanes> out(beams.beams());
+    ElementNoiseOfPing noise = beams.noise_of_ping(
+        {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
+    double sum = 0.0;
+    double squares = 0.0;
+    double products = 0.0;
+    double count = 0.0;
+    for (int row = 0; row < 2000; row += lanes) {
+        beams.form(nullptr, row, &noise, scratch, out.data());
+        for (int j = 20; j < 235; ++j) {
+            for (int lane = 0; lane < lanes; ++lane) {
+                const double p = out[j][lane];
+                sum += p;
+                squares += p * p;
+                products += p * out[j + 1][lane];
+                count += 1.0;
             }
         }
-        const double mean = sum / count;
-        const double variance = squares / count - mean * mean;
-        CHECK(std::fabs(mean - 1.0) < 0.01);
-        CHECK(std::fabs(variance - 1.0) < 0.03);
-        const double t = array.wavelengths / 255.0;
-        const double sinc = std::sin(pi * t) / (pi * t);
-        CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
     }
+    const double mean = sum / count;
+    const double variance = squares / count - mean * mean;
+    CHECK(std::fabs(mean - 1.0) < 0.01);
+    CHECK(std::fabs(variance - 1.0) < 0.03);
+    const double t = array.wavelengths / 255.0;
+    const double sinc = std::sin(pi * t) / (pi * t);
+    CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
+}
 
-    TEST_CASE("beams: echoes between the columns have the energy of the pattern on average") {
-        // The mean over places of the sum over beams is the integral of the pattern over the sine,
-        // by the beams' distance. Columns are as far apart as they get.
-        const LineArray array = line_array(radians(1.0), -30.0);
-        const double step = 0.69 / array.wavelengths;
-        std::vector<double> sines;
-        for (int j = -40; j <= 40; ++j)
-            sines.push_back(j * step);
-        const Beamformer beams(array, sines, false);
-        EchoGrid grid(lanes, beams.grid().columns);
-        const int middle = beams.grid().columns / 2;
-        for (int lane = 0; lane < lanes; ++lane) {
-            const float share = (static_cast<float>(lane) + 0.5F) / lanes;
-            grid.column(middle)[2 * lane] = 1.0F - share;
-            grid.column(middle + 1)[2 * lane] = share;
-        }
-        Beamformer::Scratch scratch(beams);
-        std::vector<Lanes> out(beams.beams());
-        beams.form(&grid, 0, nullptr, scratch, out.data());
-        double received = 0.0;
-        for (const Lanes& powers : out)
-            received += std::accumulate(powers.begin(), powers.end(), 0.0) / lanes;
-        double pattern = 0.0;
-        for (double u = -40.0 * step; u < 40.0 * step; u += 0.01 * step)
-            pattern += 0.01 * line_pattern(array, u) * line_pattern(array, u);
-        CHECK(std::fabs(received / pattern - 1.0) < 0.003);
+TEST_CASE("beams: echoes between the columns have the energy of the pattern on average") {
+    // The mean over places of the sum over beams is the integral of the pattern over the sine,
+    // by the beams' distance. Columns are as far apart as they get.
+    const LineArray array = line_array(radians(1.0), -30.0);
+    const double step = 0.69 / array.wavelengths;
+    std::vector<double> sines;
+    for (int j = -40; j <= 40; ++j)
+        sines.push_back(j * step);
+    const Beamformer beams(array, sines, false);
+    EchoGrid grid(lanes, beams.grid().columns);
+    const int middle = beams.grid().columns / 2;
+    for (int lane = 0; lane < lanes; ++lane) {
+        const float share = (static_cast<float>(lane) + 0.5F) / lanes;
+        grid.column(middle)[2 * lane] = 1.0F - share;
+        grid.column(middle + 1)[2 * lane] = share;
     }
+    Beamformer::Scratch scratch(beams);
+    std::vector<Lanes> out(beams.beams());
+    beams.form(&grid, 0, nullptr, scratch, out.data());
+    double received = 0.0;
+    for (const Lanes& powers : out)
+        received += std::accumulate(powers.begin(), powers.end(), 0.0) / lanes;
+    double pattern = 0.0;
+    for (double u = -40.0 * step; u < 40.0 * step; u += 0.01 * step)
+        pattern += 0.01 * line_pattern(array, u) * line_pattern(array, u);
+    CHECK(std::fabs(received / pattern - 1.0) < 0.003);
+}
 
-    TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {
-        const std::vector<float> powers{0.0F, 1e-4F, 1.0F / 256, 1.0F / 16, 1.0F, 7.0F};
-        using Raw = std::vector<std::uint16_t>;
-        ReceiverConfig receiver;
-        CHECK(companded(powers, receiver) == Raw{0, 26, 64, 128, 255, 255});
-        receiver.offset = 0.25;
-        CHECK(companded(powers, receiver) == Raw{0, 0, 0, 64, 191, 191});
-        receiver.offset = 0.0;
-        receiver.companding = Companding::linear;
-        CHECK(companded(powers, receiver) == Raw{0, 3, 16, 64, 255, 255});
-        receiver.companding = Companding::log;
-        receiver.bits = 12;
-        // 1 + 20 log(amplitude) / 60 of 4095.
-        CHECK(companded(powers, receiver) == Raw{0, 1365, 2451, 3273, 4095, 4095});
-    }
+TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {
+    const std::vector<float> powers{0.0F, 1e-4F, 1.0F / 256, 1.0F / 16, 1.0F, 7.0F};
+    using Raw = std::vector<std::uint16_t>;
+    ReceiverConfig receiver;
+    CHECK(companded(powers, receiver) == Raw{0, 26, 64, 128, 255, 255});
+    receiver.offset = 0.25;
+    CHECK(companded(powers, receiver) == Raw{0, 0, 0, 64, 191, 191});
+    receiver.offset = 0.0;
+    receiver.companding = Companding::linear;
+    CHECK(companded(powers, receiver) == Raw{0, 3, 16, 64, 255, 255});
+    receiver.companding = Companding::log;
+    receiver.bits = 12;
+    // 1 + 20 log(amplitude) / 60 of 4095.
+    CHECK(companded(powers, receiver) == Raw{0, 1365, 2451, 3273, 4095, 4095});
 }

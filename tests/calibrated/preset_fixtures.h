@@ -1,9 +1,6 @@
 #pragma once
 
 #include "input/mission/parse.h"
-#include "simulate/calibrated/model.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/source_folder.h"

@@ -46,14 +46,6 @@ std::vector<double> noise_powers(const ReceiverConfig& chain) {
     return out;
 }
 
-/// The coefficient of variation of amplitudes.
-double variation_of(const std::vector<double>& powers) {
-    double root = 0.0;
-    for (const double power : powers)
-        root += std::sqrt(power) / static_cast<double>(powers.size());
-    return std::sqrt(mean(powers) / (root * root) - 1.0);
-}
-
 constexpr double bin_m = 0.05;
 constexpr double water_speed_m_s = 1500.0;
 
@@ -66,172 +58,161 @@ Reverberation tail_of(double share_db, double time_s) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n, and
-    // its mean is h = 1 + 1/2 + ... + 1/n, which is divided out. The mean of two is gamma
-    // distributed with shape 2. Variations of the amplitudes by their moments.
-    TEST_CASE("receiver: samples have the distributions of order statistics and means") {
-        const auto largest_of = [](int n, double h) {
-            return [n, h](double x) { return std::pow(1.0 - std::exp(-h * x), n); };
-        };
-        const auto mean_of_two = [](double x) {
-            return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x);
-        };
-        const double root = 0.75 * std::sqrt(pi / 2.0);
-        const double variation_of_two = std::sqrt(1.0 - root * root) / root;
-        struct Case {
-            double samples;
-            SampleRule combine;
-            std::function<double(double)> law;
-            double variation;
-        };
-        constexpr SampleRule greatest = SampleRule::maximum;
-        for (const Case& c : {Case{1.0, greatest, largest_of(1, 1.0), 0.5227},
-                              Case{2.0, greatest, largest_of(2, 1.5), 0.3776},
-                              Case{3.0, greatest, largest_of(3, 11.0 / 6.0), 0.3180},
-                              Case{2.0, SampleRule::mean, mean_of_two, variation_of_two}}) {
-            ReceiverConfig chain;
-            chain.samples = c.samples;
-            chain.combine = c.combine;
-            CAPTURE(c.variation);
-            const std::vector<double> powers = noise_powers(chain);
-            CHECK(ks_p_value(powers, c.law) > 1e-3);
-            CHECK(variation_of(powers) == test::approx(c.variation).epsilon(0.025));
+// The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n, and
+// its mean is h = 1 + 1/2 + ... + 1/n, which is divided out. The mean of two is gamma
+// distributed with shape 2.
+TEST_CASE("receiver: samples have the distributions of order statistics and means") {
+    const auto largest_of = [](int n, double h) {
+        return [n, h](double x) { return std::pow(1.0 - std::exp(-h * x), n); };
+    };
+    const auto mean_of_two = [](double x) { return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x); };
+    struct Case {
+        double samples;
+        SampleRule combine;
+        std::function<double(double)> law;
+    };
+    for (const Case& c : {Case{1.0, SampleRule::maximum, largest_of(1, 1.0)},
+                          Case{3.0, SampleRule::maximum, largest_of(3, 11.0 / 6.0)},
+                          Case{2.0, SampleRule::mean, mean_of_two}}) {
+        ReceiverConfig chain;
+        chain.samples = c.samples;
+        chain.combine = c.combine;
+        CAPTURE(c.samples);
+        CHECK(ks_p_value(noise_powers(chain), c.law) > 1e-3);
+    }
+}
+
+TEST_CASE("receiver: ringing lies where it should") {
+    const std::vector<float> plain = noise_image({});
+    ReceiverConfig ringing;
+    ringing.ring_down_db = 200.0;
+    ringing.ring_down_m = 1.0;
+    const std::vector<float> rung = noise_image(ringing);
+    for (const int row : {0, 200, 500})
+        CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
+              test::approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
+}
+
+// A Poisson process of 40 pulses in 2,000 pings of 20 m (26.7 ms) has 2,135; 4.5 standard
+// deviations are 208. Their mean power is 100 times the noise over two bins.
+TEST_CASE("receiver: foreign pulses come at their rate and with their level") {
+    ReceiverConfig receiver;
+    receiver.interference_per_s = 40.0;
+    receiver.interference_db = 20.0;
+    constexpr int rows_count = 400;
+    const std::vector<float> noise(rows_count, 1e-6F);
+    const ImageRows rows{.bin_m = 0.05,
+                         .bin_s = 0.02668 / rows_count,
+                         .pulse_bins = 2,
+                         .rows = rows_count,
+                         .beams = 1,
+                         .noise = noise};
+    double energy = 0.0;
+    int pulses = 0;
+    for (std::uint32_t ping = 0; ping < 2000; ++ping) {
+        std::vector<float> image(rows_count, 0.0F);
+        add_faults(receiver, rows, {1, 2, ping}, image);
+        for (int row = 0; row < rows_count; ++row) {
+            energy += image[row] / 1e-6;
+            pulses += image[row] > 0.0F && (row == 0 || image[row - 1] == 0.0F) ? 1 : 0;
         }
     }
+    CHECK(std::abs(pulses - 2135) < 208 + 20);  // one pulse in a hundred meets another
+    // Products of two exponential draws: the standard error is sqrt(3 / (2 * 2135)).
+    CHECK(std::fabs(energy / (2135.0 * 2.0 * 100.0) - 1.0) < 4.5 * 0.035);
+}
 
-    TEST_CASE("receiver: ringing lies where it should") {
-        const std::vector<float> plain = noise_image({});
-        ReceiverConfig ringing;
-        ringing.ring_down_db = 200.0;
-        ringing.ring_down_m = 1.0;
-        const std::vector<float> rung = noise_image(ringing);
-        for (const int row : {0, 200, 500})
-            CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
-                  test::approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
+// A share of 0.3 of 4,000 pings is 1,200; 4.5 standard deviations are 130. The mean loss is 6
+// dB.
+TEST_CASE("receiver: a share of the pings is weaker") {
+    ReceiverConfig receiver;
+    receiver.loss_share = 0.3;
+    receiver.loss_db = 6.0;
+    const ImageRows rows{.rows = 2, .beams = 1, .noise = {}};
+    int weak = 0;
+    double loss_db = 0.0;
+    for (std::uint32_t ping = 0; ping < 4000; ++ping) {
+        std::vector<float> image{1.0F, 0.5F};
+        add_faults(receiver, rows, {1, 2, ping}, image);
+        CHECK(image[1] == 0.5F * image[0]);
+        weak += image[0] < 1.0F ? 1 : 0;
+        loss_db -= 10.0 * std::log10(static_cast<double>(image[0]));
     }
+    CHECK(std::abs(weak - 1200) < 130);
+    CHECK(std::fabs(loss_db / weak - 6.0) < 4.5 * 6.0 / std::sqrt(1200.0));
+}
 
-    // A Poisson process of 40 pulses in 2,000 pings of 20 m (26.7 ms) has 2,135; 4.5 standard
-    // deviations are 208. Their mean power is 100 times the noise over two bins.
-    TEST_CASE("receiver: foreign pulses come at their rate and with their level") {
-        ReceiverConfig receiver;
-        receiver.interference_per_s = 40.0;
-        receiver.interference_db = 20.0;
-        constexpr int rows_count = 400;
-        const std::vector<float> noise(rows_count, 1e-6F);
-        const ImageRows rows{.bin_m = 0.05,
-                             .bin_s = 0.02668 / rows_count,
-                             .pulse_bins = 2,
-                             .rows = rows_count,
-                             .beams = 1,
-                             .noise = noise};
-        double energy = 0.0;
-        int pulses = 0;
-        for (std::uint32_t ping = 0; ping < 2000; ++ping) {
-            std::vector<float> image(rows_count, 0.0F);
-            add_faults(receiver, rows, {1, 2, ping}, image);
-            for (int row = 0; row < rows_count; ++row) {
-                energy += image[row] / 1e-6;
-                pulses += image[row] > 0.0F && (row == 0 || image[row - 1] == 0.0F) ? 1 : 0;
-            }
-        }
-        CHECK(std::abs(pulses - 2135) < 208 + 20);  // one pulse in a hundred meets another
-        // Products of two exponential draws: the standard error is sqrt(3 / (2 * 2135)).
-        CHECK(std::fabs(energy / (2135.0 * 2.0 * 100.0) - 1.0) < 4.5 * 0.035);
+// Gains of beams are normal in dB: neighbours differ by 2 s^2 in the mean square.
+TEST_CASE("receiver: gains of beams stay") {
+    ReceiverConfig receiver;
+    receiver.beam_gain_db = 0.5;
+    constexpr int draws = 2000;
+    double square = 0.0;
+    for (std::uint64_t seed = 0; seed < draws; ++seed) {
+        const double apart =
+            beam_gain_db(receiver, 1, {seed, 2, 7}) - beam_gain_db(receiver, 2, {seed, 2, 7});
+        square += apart * apart / draws;
     }
-
-    // A share of 0.3 of 4,000 pings is 1,200; 4.5 standard deviations are 130. The mean loss is 6
-    // dB.
-    TEST_CASE("receiver: a share of the pings is weaker") {
-        ReceiverConfig receiver;
-        receiver.loss_share = 0.3;
-        receiver.loss_db = 6.0;
-        const ImageRows rows{.rows = 2, .beams = 1, .noise = {}};
-        int weak = 0;
-        double loss_db = 0.0;
-        for (std::uint32_t ping = 0; ping < 4000; ++ping) {
-            std::vector<float> image{1.0F, 0.5F};
-            add_faults(receiver, rows, {1, 2, ping}, image);
-            CHECK(image[1] == 0.5F * image[0]);
-            weak += image[0] < 1.0F ? 1 : 0;
-            loss_db -= 10.0 * std::log10(static_cast<double>(image[0]));
-        }
-        CHECK(std::abs(weak - 1200) < 130);
-        CHECK(std::fabs(loss_db / weak - 6.0) < 4.5 * 6.0 / std::sqrt(1200.0));
-    }
-
-    // Gains of beams are normal in dB: neighbours differ by 2 s^2 in the mean square.
-    TEST_CASE("receiver: gains of beams stay") {
-        ReceiverConfig receiver;
-        receiver.beam_gain_db = 0.5;
-        constexpr int draws = 2000;
-        double square = 0.0;
-        for (std::uint64_t seed = 0; seed < draws; ++seed) {
-            const double apart =
-                beam_gain_db(receiver, 1, {seed, 2, 7}) - beam_gain_db(receiver, 2, {seed, 2, 7});
-            square += apart * apart / draws;
-        }
-        // Four standard errors of a mean of squares, sqrt(2 / draws) of it, once in 16,000 runs.
-        CHECK(std::fabs(square / (2.0 * 0.25) - 1.0) < 4.0 * std::sqrt(2.0 / draws));
-        const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
-        for (const std::uint32_t ping : {3U, 9U}) {
-            std::vector<float> image(16, 1.0F);
-            add_faults(receiver, rows, {1, 2, ping}, image);
-            for (int k = 0; k < 16; ++k) {
-                CHECK(10.0 * std::log10(image[k]) ==
-                      test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
-            }
-        }
-        receiver = {};
-        receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
+    // Four standard errors of a mean of squares, sqrt(2 / draws) of it, once in 16,000 runs.
+    CHECK(std::fabs(square / (2.0 * 0.25) - 1.0) < 4.0 * std::sqrt(2.0 / draws));
+    const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
+    for (const std::uint32_t ping : {3U, 9U}) {
         std::vector<float> image(16, 1.0F);
-        add_faults(receiver, rows, {1, 2, 3}, image);
-        CHECK(10.0 * std::log10(image[7]) == test::approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
-        CHECK(image[8] == image[7]);
+        add_faults(receiver, rows, {1, 2, ping}, image);
+        for (int k = 0; k < 16; ++k) {
+            CHECK(10.0 * std::log10(image[k]) ==
+                  test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
+        }
     }
+    receiver = {};
+    receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
+    std::vector<float> image(16, 1.0F);
+    add_faults(receiver, rows, {1, 2, 3}, image);
+    CHECK(10.0 * std::log10(image[7]) == test::approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
+    CHECK(image[8] == image[7]);
+}
 
-    TEST_CASE("reverberation: a tail has its share of the energy, and falls by 60 dB in T60") {
-        // sum of r_k over k behind one echo of power 1 is share (1 - d) (1 + d + d^2 ...) = share.
-        constexpr double time_s = 0.02;  // 300 bins of 67 us
-        EchoGrid grid(2000, 1);
-        grid.column(0)[2 * 10] = 1.0F;
-        add_reverberation(tail_of(-20.0, time_s), PowerForm::power, {1, 2}, grid);
-        double energy = 0.0;
-        for (int row = 11; row < 2000; ++row)
-            energy += static_cast<double>(grid.column(0)[2 * row]);
-        CHECK(std::fabs(energy / 0.01 - 1.0) < 1e-3);
-        const auto at = [&](int row) { return static_cast<double>(grid.column(0)[2 * row]); };
-        CHECK(std::fabs(at(11 + 300) / at(11) / 1e-6 - 1.0) < 1e-3);
-        CHECK(grid.column(0)[2 * 9] == 0.0F);
-        CHECK(grid.column(0)[2 * 10] == 1.0F);  // nothing in the bin of the echo
-    }
+TEST_CASE("reverberation: a tail has its share of the energy, and falls by 60 dB in T60") {
+    // sum of r_k over k behind one echo of power 1 is share (1 - d) (1 + d + d^2 ...) = share.
+    constexpr double time_s = 0.02;  // 300 bins of 67 us
+    EchoGrid grid(2000, 1);
+    grid.column(0)[2 * 10] = 1.0F;
+    add_reverberation(tail_of(-20.0, time_s), PowerForm::power, {1, 2}, grid);
+    double energy = 0.0;
+    for (int row = 11; row < 2000; ++row)
+        energy += static_cast<double>(grid.column(0)[2 * row]);
+    CHECK(std::fabs(energy / 0.01 - 1.0) < 1e-3);
+    const auto at = [&](int row) { return static_cast<double>(grid.column(0)[2 * row]); };
+    CHECK(std::fabs(at(11 + 300) / at(11) / 1e-6 - 1.0) < 1e-3);
+    CHECK(grid.column(0)[2 * 9] == 0.0F);
+    CHECK(grid.column(0)[2 * 10] == 1.0F);  // nothing in the bin of the echo
+}
 
-    TEST_CASE("reverberation: amplitudes of a tail have its power and are drawn for each ping") {
-        std::array<std::vector<double>, 2> powers;
-        for (const std::uint32_t ping : {0U, 1U}) {
-            EchoGrid grid(64, 400);
-            for (int c = 0; c < grid.columns(); ++c)
-                grid.column(c)[0] = 1.0F;
-            add_reverberation(tail_of(-10.0, 0.05), PowerForm::amplitude, {ping, 7}, grid);
-            for (int c = 0; c < grid.columns(); ++c) {
-                for (int row = 1; row < 64; ++row) {
-                    const double re = grid.column(c)[2 * row];
-                    const double im = grid.column(c)[2 * row + 1];
-                    powers[ping].push_back(re * re + im * im);
-                }
+TEST_CASE("reverberation: amplitudes of a tail have its power and are drawn for each ping") {
+    std::array<std::vector<double>, 2> powers;
+    for (const std::uint32_t ping : {0U, 1U}) {
+        EchoGrid grid(64, 400);
+        for (int c = 0; c < grid.columns(); ++c)
+            grid.column(c)[0] = 1.0F;
+        add_reverberation(tail_of(-10.0, 0.05), PowerForm::amplitude, {ping, 7}, grid);
+        for (int c = 0; c < grid.columns(); ++c) {
+            for (int row = 1; row < 64; ++row) {
+                const double re = grid.column(c)[2 * row];
+                const double im = grid.column(c)[2 * row + 1];
+                powers[ping].push_back(re * re + im * im);
             }
         }
-        const double d = std::pow(10.0, -6.0 * 2.0 * bin_m / water_speed_m_s / 0.05);
-        const double expected = 0.1 * (1.0 - std::pow(d, 63.0)) / 63.0;
-        // 25,200 exponential powers: 4.5 standard errors, which their decay raises a little.
-        CHECK(std::fabs(mean(powers[0]) / expected - 1.0) < 4.5 * 1.2 / std::sqrt(25200.0));
-        CHECK(powers[0] != powers[1]);
     }
+    const double d = std::pow(10.0, -6.0 * 2.0 * bin_m / water_speed_m_s / 0.05);
+    const double expected = 0.1 * (1.0 - std::pow(d, 63.0)) / 63.0;
+    // 25,200 exponential powers: 4.5 standard errors, which their decay raises a little.
+    CHECK(std::fabs(mean(powers[0]) / expected - 1.0) < 4.5 * 1.2 / std::sqrt(25200.0));
+    CHECK(powers[0] != powers[1]);
+}
 
-    TEST_CASE("reverberation: without a time there is none") {
-        EchoGrid grid(8, 1);
-        grid.column(0)[0] = 1.0F;
-        add_reverberation(tail_of(-10.0, 0.0), PowerForm::power, {1, 2}, grid);
-        CHECK(grid.occupied() == 1);
-    }
+TEST_CASE("reverberation: without a time there is none") {
+    EchoGrid grid(8, 1);
+    grid.column(0)[0] = 1.0F;
+    add_reverberation(tail_of(-10.0, 0.0), PowerForm::power, {1, 2}, grid);
+    CHECK(grid.occupied() == 1);
 }

@@ -65,75 +65,71 @@ double loss_db(const LineArray& head, double off_rad) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("resolution cell of three presets: a point is as wide as beam and pulse are") {
-        struct Case {
-            std::string preset;
-            double range_m, resolution_m;
-        };
-        for (const Case& c :
-             {Case{"oculus_m1200d_2100khz", 1.2, 0.0025}, Case{"gemini_720is", 3.0, 0.008},
-              Case{"didson_1800khz", 5.0, 0.02}}) {
-            CAPTURE(c.preset);
-            // 120 beams over 6 degrees; 60 bins of a quarter of the resolution.
-            const Sonar sonar = preset_sonar(
-                c.preset,
-                "    azimuth_deg: 6\n    azimuth_bins: 121\n    range_bins: 61\n"
-                "    range_min_m: " +
-                    std::to_string(c.range_m - 7.625 * c.resolution_m) +
-                    "\n    range_max_m: " + std::to_string(c.range_m + 7.625 * c.resolution_m) +
-                    "\n    instrument: {usual_water: none, receiver: {samples: 1}, "
-                    "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
-            const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
-            const std::size_t peak = std::ranges::max_element(image) - image.begin();
-            std::vector<double> across, along;
-            for (std::size_t j = 0; j < 121; ++j)
-                across.push_back(image[peak / 121 * 121 + j]);
-            for (std::size_t i = 0; i < 61; ++i)
-                along.push_back(image[i * 121 + peak % 121]);
+TEST_CASE("resolution cell of three presets: a point is as wide as beam and pulse are") {
+    struct Case {
+        std::string preset;
+        double range_m, resolution_m;
+    };
+    for (const Case& c : {Case{"oculus_m1200d_2100khz", 1.2, 0.0025},
+                          Case{"gemini_720is", 3.0, 0.008}, Case{"didson_1800khz", 5.0, 0.02}}) {
+        CAPTURE(c.preset);
+        // 120 beams over 6 degrees; 60 bins of a quarter of the resolution.
+        const Sonar sonar = preset_sonar(
+            c.preset,
+            "    azimuth_deg: 6\n    azimuth_bins: 121\n    range_bins: 61\n"
+            "    range_min_m: " +
+                std::to_string(c.range_m - 7.625 * c.resolution_m) +
+                "\n    range_max_m: " + std::to_string(c.range_m + 7.625 * c.resolution_m) +
+                "\n    instrument: {usual_water: none, receiver: {samples: 1}, "
+                "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
+        const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
+        const std::size_t peak = std::ranges::max_element(image) - image.begin();
+        std::vector<double> across, along;
+        for (std::size_t j = 0; j < 121; ++j)
+            across.push_back(image[peak / 121 * 121 + j]);
+        for (std::size_t i = 0; i < 61; ++i)
+            along.push_back(image[i * 121 + peak % 121]);
 
-            // Without errors of phase this is the width that the preset asks for.
-            const LineArray array = array_of(sonar);
-            const double width = aperture_width(array);
-            if (array.quartic_rad == 0.0) {
-                CHECK(std::fabs(width / radians(sonar.config.instrument.beam.width_deg) - 1.0) <
-                      2e-3);
-            }
-            const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
-            const double beams_m = half_power_width(across) * spacing;
-            const double pulse_m = half_power_width(along) * sonar.settings.view.bin_m();
-            CHECK(std::fabs(beams_m / width - 1.0) < 0.02);
-            // The linear spline that stands for the pulse is higher than it at its knots.
-            CHECK(std::fabs(pulse_m / c.resolution_m - 1.0) < 0.03);
+        // Without errors of phase this is the width that the preset asks for.
+        const LineArray array = array_of(sonar);
+        const double width = aperture_width(array);
+        if (array.quartic_rad == 0.0) {
+            CHECK(std::fabs(width / radians(sonar.config.instrument.beam.width_deg) - 1.0) < 2e-3);
         }
+        const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
+        const double beams_m = half_power_width(across) * spacing;
+        const double pulse_m = half_power_width(along) * sonar.settings.view.bin_m();
+        CHECK(std::fabs(beams_m / width - 1.0) < 0.02);
+        // The linear spline that stands for the pulse is higher than it at its knots.
+        CHECK(std::fabs(pulse_m / c.resolution_m - 1.0) < 0.03);
     }
+}
 
-    TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") {
-        for (const char* const preset : {"micron", "ping360"}) {
-            const Sonar sonar = scanning(preset);
-            const LineArray head = array_of(sonar);
-            const double width = radians(sonar.config.instrument.beam.width_deg);
-            const double half_view = 0.5 * sonar.settings.view.azimuth_rad;
-            const auto level = [&](double off) {
-                const Pose pose{rotation_from_rpy(0.0, 0.0, off), Eigen::Vector3d::Zero()};
-                const Samples point =
-                    patches({5.0, 0.0, 0.0}, {0, -1, 0}, {0, 0, 1}, 0.002, 0.002, 0.002, pose);
-                return db_of_power(total(quiet_image(sonar, point, false, pose)));
-            };
-            const double ahead = level(0.0);
-            // At half of the width a quarter of the power is left.
-            CHECK(std::fabs(level(0.5 * width) - ahead + 6.02) < 0.05);
-            CHECK(std::fabs(level(-0.5 * width) - ahead + 6.02) < 0.05);
-            int lobes = 0;
-            for (const double angle : scan_angles_rad(sonar.config)) {
-                if (std::fabs(angle) >= half_view) continue;
-                const double expected = loss_db(head, angle);
-                if (expected < -60.0) continue;  // in a null
-                CHECK(std::fabs(level(angle) - ahead - expected) < 0.2);
-                // The first side lobes are 20 dB down one way.
-                lobes += std::fabs(angle) > 1.2 * width && expected > -41.0 ? 1 : 0;
-            }
-            CHECK(lobes >= 4);
+TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") {
+    for (const char* const preset : {"micron", "ping360"}) {
+        const Sonar sonar = scanning(preset);
+        const LineArray head = array_of(sonar);
+        const double width = radians(sonar.config.instrument.beam.width_deg);
+        const double half_view = 0.5 * sonar.settings.view.azimuth_rad;
+        const auto level = [&](double off) {
+            const Pose pose{rotation_from_rpy(0.0, 0.0, off), Eigen::Vector3d::Zero()};
+            const Samples point =
+                patches({5.0, 0.0, 0.0}, {0, -1, 0}, {0, 0, 1}, 0.002, 0.002, 0.002, pose);
+            return db_of_power(total(quiet_image(sonar, point, false, pose)));
+        };
+        const double ahead = level(0.0);
+        // At half of the width a quarter of the power is left.
+        CHECK(std::fabs(level(0.5 * width) - ahead + 6.02) < 0.05);
+        CHECK(std::fabs(level(-0.5 * width) - ahead + 6.02) < 0.05);
+        int lobes = 0;
+        for (const double angle : scan_angles_rad(sonar.config)) {
+            if (std::fabs(angle) >= half_view) continue;
+            const double expected = loss_db(head, angle);
+            if (expected < -60.0) continue;  // in a null
+            CHECK(std::fabs(level(angle) - ahead - expected) < 0.2);
+            // The first side lobes are 20 dB down one way.
+            lobes += std::fabs(angle) > 1.2 * width && expected > -41.0 ? 1 : 0;
         }
+        CHECK(lobes >= 4);
     }
 }

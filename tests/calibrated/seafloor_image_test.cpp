@@ -1,6 +1,5 @@
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/patches.h"
@@ -59,92 +58,88 @@ std::vector<Sample> strip(float depth_m, std::uint32_t material = 0) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // With u = y / r a floor at the depth d has dA = r^2 / x dr du. So a bin has the echo
-    // sigma r^-2 / x 10^(-0.2 alpha r) times the integrals of the pattern over u and of the pulse
-    // over r. Both are far narrower than this varies.
-    TEST_CASE("sea bed: a floor has the level of the sonar equation at every angle") {
-        constexpr double depth_m = 3.0;
-        constexpr int beams = 256;
-        Draws draws(40);
-        for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
-            SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 4e5);
-            config.azimuth_deg = 90.0;
-            config.azimuth_bins = beams;
-            config.elevation_deg = 60.0;
-            set_range(config, 1.0, 21.0, 500);
-            config.instrument.beam.width_deg = static_cast<double>(draws.between(0.5F, 2.0F));
-            config.instrument.beam.side_lobe_db =
-                static_cast<double>(draws.between(-35.0F, -15.0F));
-            config.instrument.pulse.resolution_m = static_cast<double>(draws.between(0.04F, 0.3F));
-            const Sonar sonar = make_sonar(config, {});
-            Scene scene = empty_scene();
-            scene.materials.push_back(example_sand());
-            add_floor(scene, 60.0F, -static_cast<float>(depth_m),
-                      static_cast<std::uint32_t>(scene.materials.size() - 1), 100);
-            const std::vector<float> image = expected_image(sonar, scene, engine);
-            const View& view = sonar.settings.view;
-            const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
-            const ExpectedEcho echo = expected_echo(sonar.config.instrument, {}, view);
-            const auto expected = [&](int row, int beam) {
-                const double r = view.range_min_m + (row + 0.5) * view.bin_m();
-                const double u = std::sin(radians(90.0 * ((beam + 0.5) / beams - 0.5)));
-                const double x = std::sqrt(r * r * (1.0 - u * u) - depth_m * depth_m);
-                return scattering_strength(example_sand(), 4e5, depth_m / r) / (r * r * x) *
-                       std::pow(10.0, -0.2 * alpha * r) * echo.far_integral * echo.pulse_length_m;
-            };
-            for (const double grazing_deg : {12.0, 15.0, 18.0, 21.0, 24.0}) {
-                for (const int beam : {118, 188}) {
-                    const double range_m = depth_m / std::sin(radians(grazing_deg));
-                    const int row = static_cast<int>((range_m - 1.0) / view.bin_m());
-                    double found = 0.0;
-                    double closed = 0.0;
-                    for (int i = row - 5; i <= row + 5; ++i) {
-                        for (int j = beam; j <= beam + 20; ++j) {
-                            found += image[static_cast<std::size_t>(i) * beams + j];
-                            closed += expected(i, j);
-                        }
+// With u = y / r a floor at the depth d has dA = r^2 / x dr du. So a bin has the echo
+// sigma r^-2 / x 10^(-0.2 alpha r) times the integrals of the pattern over u and of the pulse
+// over r. Both are far narrower than this varies.
+TEST_CASE("sea bed: a floor has the level of the sonar equation at every angle") {
+    constexpr double depth_m = 3.0;
+    constexpr int beams = 256;
+    Draws draws(40);
+    for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
+        SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 4e5);
+        config.azimuth_deg = 90.0;
+        config.azimuth_bins = beams;
+        config.elevation_deg = 60.0;
+        set_range(config, 1.0, 21.0, 500);
+        config.instrument.beam.width_deg = static_cast<double>(draws.between(0.5F, 2.0F));
+        config.instrument.beam.side_lobe_db = static_cast<double>(draws.between(-35.0F, -15.0F));
+        config.instrument.pulse.resolution_m = static_cast<double>(draws.between(0.04F, 0.3F));
+        const Sonar sonar = make_sonar(config, {});
+        Scene scene = empty_scene();
+        scene.materials.push_back(example_sand());
+        add_floor(scene, 60.0F, -static_cast<float>(depth_m),
+                  static_cast<std::uint32_t>(scene.materials.size() - 1), 100);
+        const std::vector<float> image = expected_image(sonar, scene, engine);
+        const View& view = sonar.settings.view;
+        const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
+        const ExpectedEcho echo = expected_echo(sonar.config.instrument, {}, view);
+        const auto expected = [&](int row, int beam) {
+            const double r = view.range_min_m + (row + 0.5) * view.bin_m();
+            const double u = std::sin(radians(90.0 * ((beam + 0.5) / beams - 0.5)));
+            const double x = std::sqrt(r * r * (1.0 - u * u) - depth_m * depth_m);
+            return scattering_strength(example_sand(), 4e5, depth_m / r) / (r * r * x) *
+                   std::pow(10.0, -0.2 * alpha * r) * echo.far_integral * echo.pulse_length_m;
+        };
+        for (const double grazing_deg : {12.0, 15.0, 18.0, 21.0, 24.0}) {
+            for (const int beam : {118, 188}) {
+                const double range_m = depth_m / std::sin(radians(grazing_deg));
+                const int row = static_cast<int>((range_m - 1.0) / view.bin_m());
+                double found = 0.0;
+                double closed = 0.0;
+                for (int i = row - 5; i <= row + 5; ++i) {
+                    for (int j = beam; j <= beam + 20; ++j) {
+                        found += image[static_cast<std::size_t>(i) * beams + j];
+                        closed += expected(i, j);
                     }
-                    CAPTURE_ALL(grazing_deg, beam, static_cast<int>(engine));
-                    CHECK(std::fabs(db_of_power(found / closed)) < 0.03);
                 }
+                CAPTURE_ALL(grazing_deg, beam, static_cast<int>(engine));
+                CHECK(std::fabs(db_of_power(found / closed)) < 0.03);
             }
         }
     }
+}
 
-    TEST_CASE("sea bed: a prepared model makes the image, of another scene as well") {
-        const CalibratedModel model = fan_model();
-        const Scene beds = scene_of_beds();
-        const auto prepared =
-            std::dynamic_pointer_cast<const CalibratedModel>(model.prepared(beds));
-        REQUIRE(prepared != nullptr);
-        Scene steel_alone;
-        steel_alone.materials = {beds.materials[1]};
-        for (const Scene& scene : {beds, steel_alone})
-            CHECK(image_of(*prepared, scene, fan_view, strip(0.8F)) ==
-                  image_of(model, scene, fan_view, strip(0.8F)));
-    }
+TEST_CASE("sea bed: a prepared model makes the image, of another scene as well") {
+    const CalibratedModel model = fan_model();
+    const Scene beds = scene_of_beds();
+    const auto prepared = std::dynamic_pointer_cast<const CalibratedModel>(model.prepared(beds));
+    REQUIRE(prepared != nullptr);
+    Scene steel_alone;
+    steel_alone.materials = {beds.materials[1]};
+    for (const Scene& scene : {beds, steel_alone})
+        CHECK(image_of(*prepared, scene, fan_view, strip(0.8F)) ==
+              image_of(model, scene, fan_view, strip(0.8F)));
+}
 
-    TEST_CASE("sea bed: in a scene of many materials each scatters as if it were alone") {
-        // More than the eight that a register holds.
-        const CalibratedModel model = fan_model();
-        Scene many;
-        for (int k = 0; k < 6; ++k) {
-            many.materials.push_back({.name = "plain", .lambert_db = -20.0 - k});
-            many.materials.push_back({.name = "bed"});
-            many.materials.back().grain_phi = 1.5 * k;
-        }
-        for (std::uint32_t k = 0; k < many.materials.size(); ++k) {
-            Scene alone;
-            alone.materials = {many.materials[k]};
-            CHECK(image_of(model, many, fan_view, strip(0.8F, k)) ==
-                  image_of(model, alone, fan_view, strip(0.8F, 0)));
-        }
+TEST_CASE("sea bed: in a scene of many materials each scatters as if it were alone") {
+    // More than the eight that a register holds.
+    const CalibratedModel model = fan_model();
+    Scene many;
+    for (int k = 0; k < 6; ++k) {
+        many.materials.push_back({.name = "plain", .lambert_db = -20.0 - k});
+        many.materials.push_back({.name = "bed"});
+        many.materials.back().grain_phi = 1.5 * k;
     }
+    for (std::uint32_t k = 0; k < many.materials.size(); ++k) {
+        Scene alone;
+        alone.materials = {many.materials[k]};
+        CHECK(image_of(model, many, fan_view, strip(0.8F, k)) ==
+              image_of(model, alone, fan_view, strip(0.8F, 0)));
+    }
+}
 
-    TEST_CASE("a material that scatters nothing makes an image of zeros") {
-        const CalibratedModel model = fan_model();
-        for (const float value : image_of(model, scene_of_beds(), fan_view, strip(0.8F, 2)))
-            CHECK(std::fabs(value) < 1e-25F);
-    }
+TEST_CASE("a material that scatters nothing makes an image of zeros") {
+    const CalibratedModel model = fan_model();
+    for (const float value : image_of(model, scene_of_beds(), fan_view, strip(0.8F, 2)))
+        CHECK(std::fabs(value) < 1e-25F);
 }

@@ -1,5 +1,4 @@
 #include "calibrated/preset_fixtures.h"
-#include "core/elementary.h"
 #include "simulate/calibrated/scatterer_search.h"
 #include "support/statistics.h"
 
@@ -102,158 +101,153 @@ std::vector<Patch> patches_of_presets() {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("speckle of three presets: Rayleigh, correlated as beam and pulse have it") {
-        for (const Patch& patch : patches_of_presets()) {
-            CAPTURE(patch.sonar.config.instrument.frequency_hz);
-            const LineArray array = array_of(patch.sonar);
-            const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
-            const double width = radians(patch.sonar.config.instrument.beam.width_deg);
-            const int outer = patch.beams() / 8;
-            const int inner = patch.beams() - 2 * outer;
-            const double spacing =
-                patch.beam_sine(patch.beams() / 2 + 1) - patch.beam_sine(patch.beams() / 2);
-            const int apart = static_cast<int>(std::ceil(2.0 * width / spacing));
-            const std::vector<float> image = quiet_image(patch.sonar, patch.surface, true);
-
-            // Places two widths of beam and pulse apart are independent. Three tests at 1 % in all.
-            const std::vector<double> powers = patch.normalised(image, outer, inner, apart, 4);
-            CHECK(ks_p_value(powers, [](double x) { return 1.0 - std::exp(-x); }) >
-                  1.0 - std::pow(0.99, 1.0 / 3.0));
-
-            // A correlation over n independent places is off by about 1 / sqrt(n); with neighbours
-            // there are some 4 times as many that count.
-            const double tolerance = 2.0 / std::sqrt(static_cast<double>(powers.size()));
-            const std::vector<double> here = patch.normalised(image, outer, inner);
-            for (const int lag : {1, 2, 3}) {
-                CAPTURE(lag);
-                const auto off = [&](const std::vector<double>& there, double closed) {
-                    return std::fabs(correlation(here, there) - closed);
-                };
-                CHECK(off(patch.normalised(image, outer + lag, inner),
-                          power_correlation(array, 0.0, lag * spacing * array.wavelengths)) <
-                      tolerance);
-                const double apart_m = lag * patch.sonar.settings.view.bin_m();
-                CHECK(off(patch.normalised(image, outer, inner, 1, 1, 20 + lag),
-                          power_correlation_of_pulse(pulse, apart_m)) < tolerance);
-            }
-        }
-    }
-
-    TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the pulse say") {
-        // Moved by (x, y), the way to a scatterer at azimuth a and back is shorter by
-        // 2 (x cos a + y sin a): within a beam as if the aperture were moved by 2 (y - x tan a).
-        // The scatterer is seen under another angle, by (y cos a - x sin a) / r less, and aside by
-        // a yaw; and its echo comes earlier.
-        const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                          "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
+TEST_CASE("speckle of three presets: Rayleigh, correlated as beam and pulse have it") {
+    for (const Patch& patch : patches_of_presets()) {
+        CAPTURE(patch.sonar.config.instrument.frequency_hz);
         const LineArray array = array_of(patch.sonar);
         const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
-        constexpr int outer = 10;
+        const double width = radians(patch.sonar.config.instrument.beam.width_deg);
+        const int outer = patch.beams() / 8;
         const int inner = patch.beams() - 2 * outer;
-        // The correlation of one seed is off by about 0.02: the mean of twelve is compared with the
-        // closed form.
-        constexpr std::uint32_t seeds = 12;
-        std::vector<std::vector<double>> here;
+        const double spacing =
+            patch.beam_sine(patch.beams() / 2 + 1) - patch.beam_sine(patch.beams() / 2);
+        const int apart = static_cast<int>(std::ceil(2.0 * width / spacing));
+        const std::vector<float> image = quiet_image(patch.sonar, patch.surface, true);
+
+        // Places two widths of beam and pulse apart are independent. Three tests at 1 % in all.
+        const std::vector<double> powers = patch.normalised(image, outer, inner, apart, 4);
+        CHECK(ks_p_value(powers, [](double x) { return 1.0 - std::exp(-x); }) >
+              1.0 - std::pow(0.99, 1.0 / 3.0));
+
+        // A correlation over n independent places is off by about 1 / sqrt(n); with neighbours
+        // there are some 4 times as many that count.
+        const double tolerance = 2.0 / std::sqrt(static_cast<double>(powers.size()));
+        const std::vector<double> here = patch.normalised(image, outer, inner);
+        for (const int lag : {1, 2, 3}) {
+            CAPTURE(lag);
+            const auto off = [&](const std::vector<double>& there, double closed) {
+                return std::fabs(correlation(here, there) - closed);
+            };
+            CHECK(off(patch.normalised(image, outer + lag, inner),
+                      power_correlation(array, 0.0, lag * spacing * array.wavelengths)) <
+                  tolerance);
+            const double apart_m = lag * patch.sonar.settings.view.bin_m();
+            CHECK(off(patch.normalised(image, outer, inner, 1, 1, 20 + lag),
+                      power_correlation_of_pulse(pulse, apart_m)) < tolerance);
+        }
+    }
+}
+
+TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the pulse say") {
+    // Moved by (x, y), the way to a scatterer at azimuth a and back is shorter by
+    // 2 (x cos a + y sin a): within a beam as if the aperture were moved by 2 (y - x tan a).
+    // The scatterer is seen under another angle, by (y cos a - x sin a) / r less, and aside by
+    // a yaw; and its echo comes earlier.
+    const Patch patch("didson_1800khz", 5.0, 0.02, 66,
+                      "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
+    const LineArray array = array_of(patch.sonar);
+    const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
+    constexpr int outer = 10;
+    const int inner = patch.beams() - 2 * outer;
+    // The correlation of one seed is off by about 0.02: the mean of twelve is compared with the
+    // closed form.
+    constexpr std::uint32_t seeds = 12;
+    std::vector<std::vector<double>> here;
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+        here.push_back(patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed),
+                                        outer, inner));
+    }
+    struct Motion {
+        double x_m, y_m, yaw_deg;
+    };
+    for (const Motion& motion :
+         {Motion{0.0, 0.010, 0.0}, Motion{0.0, 0.025, 0.0}, Motion{0.0, 0.0, 0.1},
+          Motion{0.0, 0.0, 0.2}, Motion{0.005, 0.0, 0.0}, Motion{0.010, 0.0, 0.0},
+          Motion{0.004, 0.012, 0.1}}) {
+        CAPTURE_ALL(motion.x_m, motion.y_m, motion.yaw_deg);
+        const Pose pose{rotation_from_rpy(0.0, 0.0, radians(motion.yaw_deg)),
+                        {motion.x_m, motion.y_m, 0.0}};
+        double left = 0.0;
+        for (int j = outer; j < outer + inner; ++j) {
+            const double sine = patch.beam_sine(j);
+            const double cosine = std::sqrt(1.0 - sine * sine);
+            const double aperture_m = array.wavelengths * patch.wavelength_m();
+            const double moved = 2.0 * (motion.y_m - motion.x_m * sine / cosine) / aperture_m;
+            const double angle =
+                radians(motion.yaw_deg) + (motion.y_m * cosine - motion.x_m * sine) / patch.range_m;
+            left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
+                    power_correlation_of_pulse(pulse, motion.x_m * cosine + motion.y_m * sine) /
+                    inner;
+        }
+        const Samples moved = patch.visible_from(pose);
+        double found = 0.0;
         for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
-            here.push_back(patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed),
-                                            outer, inner));
+            const std::vector<float> second = quiet_image(patch.sonar, moved, true, pose, seed);
+            found += correlation(here[seed - 1], patch.normalised(second, outer, inner)) / seeds;
         }
-        struct Motion {
-            double x_m, y_m, yaw_deg;
-        };
-        for (const Motion& motion :
-             {Motion{0.0, 0.010, 0.0}, Motion{0.0, 0.025, 0.0}, Motion{0.0, 0.0, 0.1},
-              Motion{0.0, 0.0, 0.2}, Motion{0.005, 0.0, 0.0}, Motion{0.010, 0.0, 0.0},
-              Motion{0.004, 0.012, 0.1}}) {
-            CAPTURE_ALL(motion.x_m, motion.y_m, motion.yaw_deg);
-            const Pose pose{rotation_from_rpy(0.0, 0.0, radians(motion.yaw_deg)),
-                            {motion.x_m, motion.y_m, 0.0}};
-            double left = 0.0;
-            for (int j = outer; j < outer + inner; ++j) {
-                const double sine = patch.beam_sine(j);
-                const double cosine = std::sqrt(1.0 - sine * sine);
-                const double aperture_m = array.wavelengths * patch.wavelength_m();
-                const double moved = 2.0 * (motion.y_m - motion.x_m * sine / cosine) / aperture_m;
-                const double angle = radians(motion.yaw_deg) +
-                                     (motion.y_m * cosine - motion.x_m * sine) / patch.range_m;
-                left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
-                        power_correlation_of_pulse(pulse, motion.x_m * cosine + motion.y_m * sine) /
-                        inner;
-            }
-            const Samples moved = patch.visible_from(pose);
-            double found = 0.0;
-            for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
-                const std::vector<float> second = quiet_image(patch.sonar, moved, true, pose, seed);
-                found +=
-                    correlation(here[seed - 1], patch.normalised(second, outer, inner)) / seeds;
-            }
-            CHECK(std::fabs(found - left) < 0.02);
-        }
+        CHECK(std::fabs(found - left) < 0.02);
     }
+}
 
-    TEST_CASE("speckle: the second moment of scatterers, and their mean") {
-        const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                          "    instrument: {usual_water: none, receiver: {samples: 1}, beam: "
-                          "{side_lobe_db: -13.3, elements: {gain_error_db: 0, "
-                          "phase_error_deg: 0}}}\n");
-        std::vector<double> means, seconds;
-        for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-            std::vector<double> powers =
-                patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed), 8, 50);
-            means.push_back(mean(powers));
-            for (double& power : powers)
-                power *= power;
-            seconds.push_back(mean(powers));
-        }
-        // Sums of Gaussian amplitudes have 2; the contrast is the root of this less 1. 4.5 standard
-        // errors of 20 seeds: two such tests fail once in 2,000 runs. The spline that stands for
-        // the pulse adds a hundredth.
-        CHECK(std::fabs(mean(means) - 1.0) < 4.5 * standard_error(means));
-        CHECK(std::fabs(mean(seconds) - 2.0) < 4.5 * standard_error(seconds) + 0.02);
+TEST_CASE("speckle: the second moment of scatterers, and their mean") {
+    const Patch patch("didson_1800khz", 5.0, 0.02, 66,
+                      "    instrument: {usual_water: none, receiver: {samples: 1}, beam: "
+                      "{side_lobe_db: -13.3, elements: {gain_error_db: 0, "
+                      "phase_error_deg: 0}}}\n");
+    std::vector<double> means, seconds;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        std::vector<double> powers =
+            patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed), 8, 50);
+        means.push_back(mean(powers));
+        for (double& power : powers)
+            power *= power;
+        seconds.push_back(mean(powers));
     }
+    // Sums of Gaussian amplitudes have 2; the contrast is the root of this less 1. 4.5 standard
+    // errors of 20 seeds: two such tests fail once in 2,000 runs. The spline that stands for
+    // the pulse adds a hundredth.
+    CHECK(std::fabs(mean(means) - 1.0) < 4.5 * standard_error(means));
+    CHECK(std::fabs(mean(seconds) - 2.0) < 4.5 * standard_error(seconds) + 0.02);
+}
 
-    // Given their places, amplitudes of scatterers are Gaussian, so the contrast of speckle is
-    // sqrt(1 + 2 v), v the variance of the power that a resolution cell holds over its square.
-    TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
-        constexpr double resolution_m = 0.015;
-        const double width = radians(0.6);
-        const ScattererCells cells = scatterer_cells(resolution_m, width, 0.3, 1e-3);
-        std::mt19937 random(7);
-        std::uniform_real_distribution<double> unit(0.0, 1.0);
-        for (const double range : {0.4, 0.7, 1.1, 1.6, 2.3, 3.3, 5.0, 9.0, 20.0}) {
-            CAPTURE(range);
-            const double across_m = width * range;
-            const double half_m = 3.0 * std::max(across_m, resolution_m);
-            const Samples ground = patches({range, 0.0, -0.15 * range}, {1.0, 0.0, 0.0},
-                                           {0.0, 1.0, 0.0}, half_m, half_m, 0.25 * half_m, {});
-            std::vector<double> powers;
-            for (std::uint32_t seed = 1; seed <= 400; ++seed) {
-                const double turn = pi * unit(random);
-                SonarInScene sonar{
-                    Eigen::AngleAxisf(static_cast<float>(turn), Eigen::Vector3f::UnitZ())
-                        .toRotationMatrix(),
-                    {unit(random), unit(random), unit(random)}};
-                Scatterers block;
-                double power = 0.0;
-                find_scatterers(ground.items, ViewShape::fan, cells, sonar, {seed, 1}, block,
-                                [&](const Scatterers& found) {
-                                    const PatchBlock& p = found.pieces;
-                                    for (int k = 0; k < p.count; ++k) {
-                                        const double x = (p.x[k] - range) / resolution_m;
-                                        const double y = p.y[k] / across_m;
-                                        // Half of the power at half a resolution cell.
-                                        power += p.area_m2[k] * std::exp2(-4.0 * (x * x + y * y));
-                                    }
-                                });
-                powers.push_back(power);
-            }
-            const double expected = pi / (4.0 * std::log(2.0)) * resolution_m * across_m;
-            CHECK(std::fabs(mean(powers) - expected) <
-                  4.0 * standard_error(powers) + 0.02 * expected);
-            const double deviation = standard_error(powers) * std::sqrt(1.0 * powers.size());
-            const double v = std::pow(deviation / mean(powers), 2.0);
-            CHECK(std::sqrt(1.0 + 2.0 * v) < 1.03);
+// Given their places, amplitudes of scatterers are Gaussian, so the contrast of speckle is
+// sqrt(1 + 2 v), v the variance of the power that a resolution cell holds over its square.
+TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
+    constexpr double resolution_m = 0.015;
+    const double width = radians(0.6);
+    const ScattererCells cells = scatterer_cells(resolution_m, width, 0.3, 1e-3);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const double range : {0.4, 0.7, 1.1, 1.6, 2.3, 3.3, 5.0, 9.0, 20.0}) {
+        CAPTURE(range);
+        const double across_m = width * range;
+        const double half_m = 3.0 * std::max(across_m, resolution_m);
+        const Samples ground = patches({range, 0.0, -0.15 * range}, {1.0, 0.0, 0.0},
+                                       {0.0, 1.0, 0.0}, half_m, half_m, 0.25 * half_m, {});
+        std::vector<double> powers;
+        for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+            const double turn = pi * unit(random);
+            SonarInScene sonar{Eigen::AngleAxisf(static_cast<float>(turn), Eigen::Vector3f::UnitZ())
+                                   .toRotationMatrix(),
+                               {unit(random), unit(random), unit(random)}};
+            Scatterers block;
+            double power = 0.0;
+            find_scatterers(ground.items, ViewShape::fan, cells, sonar, {seed, 1}, block,
+                            [&](const Scatterers& found) {
+                                const PatchBlock& p = found.pieces;
+                                for (int k = 0; k < p.count; ++k) {
+                                    const double x = (p.x[k] - range) / resolution_m;
+                                    const double y = p.y[k] / across_m;
+                                    // Half of the power at half a resolution cell.
+                                    power += p.area_m2[k] * std::exp2(-4.0 * (x * x + y * y));
+                                }
+                            });
+            powers.push_back(power);
         }
+        const double expected = pi / (4.0 * std::log(2.0)) * resolution_m * across_m;
+        CHECK(std::fabs(mean(powers) - expected) < 4.0 * standard_error(powers) + 0.02 * expected);
+        const double deviation = standard_error(powers) * std::sqrt(1.0 * powers.size());
+        const double v = std::pow(deviation / mean(powers), 2.0);
+        CHECK(std::sqrt(1.0 + 2.0 * v) < 1.03);
     }
 }

@@ -60,61 +60,59 @@ std::map<std::array<std::int32_t, 3>, int> cells_on(const std::vector<Sample>& s
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // Along edge_v the distance from the vertical axis grows by 2.4 m / 9.2 m of its mean.
-    TEST_CASE("taper: a footprint widens with the distance from the axis of its angles") {
-        const Sample sample = footprint(0, nearest_m, farthest_m);
-        CHECK(taper_of(sample, ViewShape::fan).v == approx(1.2 / 9.2).epsilon(1e-5));
-        CHECK(std::fabs(taper_of(sample, ViewShape::fan).u) < 1e-6F);
-        CHECK(taper_of(sample, {}).v == 0.0F);
-        // Below the sonar it has no width on the axis, and no negative one beyond.
-        Sample below = footprint(columns / 2, -1.0, 2.0);
-        CHECK(taper_of(below, ViewShape::fan).v == approx(1.0));
-        below.position.head<2>().setZero();
-        CHECK(taper_of(below, ViewShape::fan).v == 0.0F);
-        // Ranges of 8.2 and 10.6 m: in strips between latitudes the width grows with the range.
-        const double range2 = 9.2 * 9.2 + below_m * below_m;
-        CHECK(taper_of(sample, ViewShape::port_starboard).v ==
-              approx(9.2 * 1.2 / range2).epsilon(1e-5));
-    }
+// Along edge_v the distance from the vertical axis grows by 2.4 m / 9.2 m of its mean.
+TEST_CASE("taper: a footprint widens with the distance from the axis of its angles") {
+    const Sample sample = footprint(0, nearest_m, farthest_m);
+    CHECK(taper_of(sample, ViewShape::fan).v == approx(1.2 / 9.2).epsilon(1e-5));
+    CHECK(std::fabs(taper_of(sample, ViewShape::fan).u) < 1e-6F);
+    CHECK(taper_of(sample, {}).v == 0.0F);
+    // Below the sonar it has no width on the axis, and no negative one beyond.
+    Sample below = footprint(columns / 2, -1.0, 2.0);
+    CHECK(taper_of(below, ViewShape::fan).v == approx(1.0));
+    below.position.head<2>().setZero();
+    CHECK(taper_of(below, ViewShape::fan).v == 0.0F);
+    // Ranges of 8.2 and 10.6 m: in strips between latitudes the width grows with the range.
+    const double range2 = 9.2 * 9.2 + below_m * below_m;
+    CHECK(taper_of(sample, ViewShape::port_starboard).v ==
+          approx(9.2 * 1.2 / range2).epsilon(1e-5));
+}
 
-    // Without the taper the first bins would be 15 % too bright and the last 12 % too dark.
-    TEST_CASE("taper: long footprints give the image of short ones") {
-        InstrumentConfig config = bare({});
-        config.frequency_hz = 7e5;
-        config.beam.width_deg = 1.0;
-        const View view{columns * column_rad, 1.0, 7.0, 12.0, 100, columns};
-        const BeamSines sines = fan_sines(0.5 * columns, columns);
-        const CalibratedModel model =
-            calibrated_model(config, {}, view, {.middles = sines.middles, .edges = {}});
-        const auto image_of = [&](int parts) {
-            Samples samples;
-            samples.items = floor_in(parts);
-            return image_of_samples(model, view, samples, {});
+// Without the taper the first bins would be 15 % too bright and the last 12 % too dark.
+TEST_CASE("taper: long footprints give the image of short ones") {
+    InstrumentConfig config = bare({});
+    config.frequency_hz = 7e5;
+    config.beam.width_deg = 1.0;
+    const View view{columns * column_rad, 1.0, 7.0, 12.0, 100, columns};
+    const BeamSines sines = fan_sines(0.5 * columns, columns);
+    const CalibratedModel model =
+        calibrated_model(config, {}, view, {.middles = sines.middles, .edges = {}});
+    const auto image_of = [&](int parts) {
+        Samples samples;
+        samples.items = floor_in(parts);
+        return image_of_samples(model, view, samples, {});
+    };
+    const std::vector<float> exact = image_of(24);
+    const std::vector<float> coarse = image_of(1);
+    for (int row = 28; row < 68; ++row) {  // 8.4 to 10.4 m, within the floor
+        CAPTURE(row);
+        const auto sum = [&](const std::vector<float>& image) {
+            return total(std::span(image).subspan(row * columns + 10, columns - 20));
         };
-        const std::vector<float> exact = image_of(24);
-        const std::vector<float> coarse = image_of(1);
-        for (int row = 28; row < 68; ++row) {  // 8.4 to 10.4 m, within the floor
-            CAPTURE(row);
-            const auto sum = [&](const std::vector<float>& image) {
-                return total(std::span(image).subspan(row * columns + 10, columns - 20));
-            };
-            CHECK(sum(coarse) == approx(sum(exact)).epsilon(0.01));
-        }
+        CHECK(sum(coarse) == approx(sum(exact)).epsilon(0.01));
     }
+}
 
-    TEST_CASE("taper: long footprints hold the scatterers of short ones, each once") {
-        const auto exact = cells_on(floor_in(24));
-        const auto coarse = cells_on(floor_in(1));
-        REQUIRE(exact.size() > 20000);
-        // A cell on the border of two columns may be rounded into both or neither.
-        std::size_t differ = exact.size();
-        for (const auto& [cell, count] : coarse) {
-            if (count == 1 && exact.contains(cell))
-                --differ;
-            else
-                ++differ;
-        }
-        CHECK(static_cast<double>(differ) < 2e-3 * static_cast<double>(exact.size()));
+TEST_CASE("taper: long footprints hold the scatterers of short ones, each once") {
+    const auto exact = cells_on(floor_in(24));
+    const auto coarse = cells_on(floor_in(1));
+    REQUIRE(exact.size() > 20000);
+    // A cell on the border of two columns may be rounded into both or neither.
+    std::size_t differ = exact.size();
+    for (const auto& [cell, count] : coarse) {
+        if (count == 1 && exact.contains(cell))
+            --differ;
+        else
+            ++differ;
     }
+    CHECK(static_cast<double>(differ) < 2e-3 * static_cast<double>(exact.size()));
 }

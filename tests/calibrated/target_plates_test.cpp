@@ -85,29 +85,27 @@ void apply_drawn_texels(PlateScene& plate, double texel_m, Draws& draws) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // An engine's samples miss a plate that is smaller than a resolution cell in some pings.
-    TEST_CASE("targets: small plates are in every ping, by the pattern at their place") {
-        for (const double edge : {0.02, 0.05, 0.1}) {
-            CAPTURE(edge);
-            const PlateScene plate(
-                edge, {{.name = "metal", .reflection = 0.8F, .slope_rms_deg = slope_deg}});
-            CHECK(greatest_error_db(plate, 61, 0.01) < 0.5);
-        }
+// An engine's samples miss a plate that is smaller than a resolution cell in some pings.
+TEST_CASE("targets: small plates are in every ping, by the pattern at their place") {
+    for (const double edge : {0.02, 0.05, 0.1}) {
+        CAPTURE(edge);
+        const PlateScene plate(edge,
+                               {{.name = "metal", .reflection = 0.8F, .slope_rms_deg = slope_deg}});
+        CHECK(greatest_error_db(plate, 61, 0.01) < 0.5);
     }
+}
 
-    TEST_CASE("targets: with maps they are in every ping, with the power of their texels") {
-        Draws draws(31);
-        for (int draw = 0; draw < 6; ++draw) {
-            const double edge = static_cast<double>(draws.between(0.03F, 0.12F));
-            const double texel = edge * static_cast<double>(draws.between(0.05F, 0.8F));
-            CAPTURE_ALL(edge, texel);
-            PlateScene plate(edge, {{.name = "dim", .lambert_db = -10.0, .slope_rms_deg = 0.0},
-                                    {.name = "bright", .lambert_db = -4.0, .slope_rms_deg = 0.0}});
-            apply_drawn_texels(plate, texel, draws);
-            // The texels of a triangle are those of a parallelogram with its area: at most 0.51 dB
-            // in these draws. The bound is chosen.
-            CHECK(greatest_error_db(plate, 9, 0.05) < 0.7);
-        }
+TEST_CASE("targets: with maps they are in every ping, with the power of their texels") {
+    Draws draws(31);
+    for (int draw = 0; draw < 6; ++draw) {
+        const double edge = static_cast<double>(draws.between(0.03F, 0.12F));
+        const double texel = edge * static_cast<double>(draws.between(0.05F, 0.8F));
+        CAPTURE_ALL(edge, texel);
+        PlateScene plate(edge, {{.name = "dim", .lambert_db = -10.0, .slope_rms_deg = 0.0},
+                                {.name = "bright", .lambert_db = -4.0, .slope_rms_deg = 0.0}});
+        apply_drawn_texels(plate, texel, draws);
+        // The texels of a triangle are those of a parallelogram with its area: at most 0.51 dB
+        // in these draws. The bound is chosen.
+        CHECK(greatest_error_db(plate, 9, 0.05) < 0.7);
     }
 }

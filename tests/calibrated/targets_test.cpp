@@ -21,184 +21,180 @@ BallScene behind_wall(BallScene ball, double distance_m, double edge_m, double t
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine") {
-        std::mt19937 random(11);
-        std::uniform_real_distribution<double> unit(0.0, 1.0);
-        for (const SonarKind kind :
-             {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder, SonarKind::scanning,
-              SonarKind::profiling}) {
-            const Sonar sonar = target_sonar(kind);
-            for (int trial = 0; trial < 6; ++trial) {
-                const double radius = 0.02 * std::pow(100.0, unit(random));
-                const double range = radius + 5.0 + 9.0 * unit(random);
-                // Near the axis of the beam, where the pattern bends little.
-                const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
-                const double side = kind == SonarKind::sidescan ? radians(60.0) : 0.0;
-                const double azimuth = side + 0.004 * (unit(random) - 0.5);
-                const Eigen::Vector3d at =
-                    T_world_sensor.translation +
-                    T_world_sensor.rotation *
-                        Eigen::Vector3d(range * std::cos(azimuth), range * std::sin(azimuth), 0.0);
-                const int sides[] = {16, 32, 96};
-                const BallScene ball(at, radius, sides[trial % 3]);
-                const double expected = energy_of_points(sonar, ball);
-                for (const EngineKind type :
-                     {EngineKind::rays, EngineKind::strips, EngineKind::automatic}) {
-                    const auto engine = make_engine(ball.scene, {.type = type, .octree = {}});
-                    const double off_db =
-                        db_of_power(energy_by(sonar, ball.scene, *engine) / expected);
-                    CAPTURE_ALL(static_cast<int>(kind), static_cast<int>(type), radius, range,
-                                sides[trial % 3]);
-                    CHECK(std::fabs(off_db) < 1.0);
-                }
+TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine") {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder,
+                                 SonarKind::scanning, SonarKind::profiling}) {
+        const Sonar sonar = target_sonar(kind);
+        for (int trial = 0; trial < 6; ++trial) {
+            const double radius = 0.02 * std::pow(100.0, unit(random));
+            const double range = radius + 5.0 + 9.0 * unit(random);
+            // Near the axis of the beam, where the pattern bends little.
+            const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
+            const double side = kind == SonarKind::sidescan ? radians(60.0) : 0.0;
+            const double azimuth = side + 0.004 * (unit(random) - 0.5);
+            const Eigen::Vector3d at =
+                T_world_sensor.translation +
+                T_world_sensor.rotation *
+                    Eigen::Vector3d(range * std::cos(azimuth), range * std::sin(azimuth), 0.0);
+            const int sides[] = {16, 32, 96};
+            const BallScene ball(at, radius, sides[trial % 3]);
+            const double expected = energy_of_points(sonar, ball);
+            for (const EngineKind type :
+                 {EngineKind::rays, EngineKind::strips, EngineKind::automatic}) {
+                const auto engine = make_engine(ball.scene, {.type = type, .octree = {}});
+                const double off_db = db_of_power(energy_by(sonar, ball.scene, *engine) / expected);
+                CAPTURE_ALL(static_cast<int>(kind), static_cast<int>(type), radius, range,
+                            sides[trial % 3]);
+                CHECK(std::fabs(off_db) < 1.0);
             }
         }
     }
+}
 
-    TEST_CASE("targets: a sphere of few triangles is a sphere, however large it looks") {
-        // Its highlight is seven resolution cells across, enough for an engine's samples; but these
-        // have the normals of the facets.
-        SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 9e5);
-        set_range(config, 0.5, 12.0, 1200);
-        config.azimuth_deg = 60.0;
-        config.azimuth_bins = 512;
-        const Sonar sonar = make_sonar(config, {});
-        const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
-        for (const int sides : {12, 16, 24}) {
-            const BallScene ball(T_world_sensor.rotation * Eigen::Vector3d(9.6, 0.1, 0.0) +
-                                     T_world_sensor.translation,
-                                 1.6, sides);
-            CAPTURE(sides);
-            CHECK(std::fabs(db_of_power(energy_by_rays(sonar, ball.scene) /
-                                        energy_of_points(sonar, ball))) < 1.0);
-        }
+TEST_CASE("targets: a sphere of few triangles is a sphere, however large it looks") {
+    // Its highlight is seven resolution cells across, enough for an engine's samples; but these
+    // have the normals of the facets.
+    SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 9e5);
+    set_range(config, 0.5, 12.0, 1200);
+    config.azimuth_deg = 60.0;
+    config.azimuth_bins = 512;
+    const Sonar sonar = make_sonar(config, {});
+    const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
+    for (const int sides : {12, 16, 24}) {
+        const BallScene ball(
+            T_world_sensor.rotation * Eigen::Vector3d(9.6, 0.1, 0.0) + T_world_sensor.translation,
+            1.6, sides);
+        CAPTURE(sides);
+        CHECK(std::fabs(db_of_power(energy_by_rays(sonar, ball.scene) /
+                                    energy_of_points(sonar, ball))) < 1.0);
     }
+}
 
-    TEST_CASE("targets: with speckle a small highlight is steady, and energies are right") {
-        for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
-            const Sonar sonar = target_sonar(SonarKind::imaging, mode);
-            const BallScene small({8.0, 0.3, 0.2}, 0.1, 48);
-            BallScene rough({8.0, 0.3, 0.2}, 1.0, 48);
-            rough.scene.materials[0].slope_rms_deg = 20.0;
-            double mean = 0.0;
-            double squares = 0.0;
-            constexpr int draws = 40;
-            for (std::uint32_t seed = 1; seed <= draws; ++seed) {
-                const auto energy = [&](const BallScene& ball) {
-                    const auto engine =
-                        make_engine(ball.scene, {.type = EngineKind::rays, .octree = {}});
-                    return energy_by(sonar, ball.scene, *engine, {}, {.seed = seed, .ping = 0},
-                                     {.multipath = false, .random = 1});
-                };
-                const double off = db_of_power(energy(small) / energy_of_points(sonar, small));
-                squares += off * off / draws;
-                mean += energy(rough) / draws;
-            }
-            // A highlight that is not steady has 6 dB.
-            CHECK(std::sqrt(squares) < 0.8);
-            CHECK(std::fabs(db_of_power(mean / energy_of_points(sonar, rough))) < 1.0);
-        }
-    }
-
-    // The highlight of a sphere of radius a has a normal distribution of RMS a s across.
-    TEST_CASE("targets: what a wall hides of a highlight has no echo") {
-        const Sonar sonar = target_sonar(SonarKind::imaging);
-        const BallScene open({8.0, 0.0, 0.0}, 0.3, 48);
-        const double whole = energy_by_rays(sonar, open.scene);
-        for (const double edge : {-1.5, -0.7, 0.0, 0.4, 1.0}) {  // in units of a s
-            // The wall stands at half of the range to the highlight.
-            const double y = 0.5 * edge * 0.3 * std::tan(radians(slope_deg));
-            const BallScene hidden = behind_wall(open, 0.5 * (8.0 - 0.3), y, 0.0);
-            CAPTURE(edge);
-            CHECK(energy_by_rays(sonar, hidden.scene) / whole ==
-                  test::approx(0.5 * std::erfc(-edge / std::sqrt(2.0))).epsilon(0.15));
-        }
-    }
-
-    // A sphere that scatters by Lambert's rule has the echo sqrt(1 - y^2 - z^2) dy dz, in radii.
-    // Beyond y = t lies a share of 1/2 - (3 t - t^3) / 4.
-    TEST_CASE("targets: a wall hides the share of a rough sphere that lies behind it") {
-        const Sonar sonar = target_sonar(SonarKind::imaging);
-        BallScene open({10.0, 0.0, 0.0}, 0.2, 24);
-        open.scene.materials[0].slope_rms_deg = 0.0;
-        const double whole = energy_by_rays(sonar, open.scene);
-        std::mt19937 random(27);
-        std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+TEST_CASE("targets: with speckle a small highlight is steady, and energies are right") {
+    for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
+        const Sonar sonar = target_sonar(SonarKind::imaging, mode);
+        const BallScene small({8.0, 0.3, 0.2}, 0.1, 48);
+        BallScene rough({8.0, 0.3, 0.2}, 1.0, 48);
+        rough.scene.materials[0].slope_rms_deg = 20.0;
+        double mean = 0.0;
         double squares = 0.0;
-        constexpr int draws = 24;
-        for (int draw = 0; draw < draws; ++draw) {
-            const double edge = 0.5 * uniform(random);
-            const double turn = pi * uniform(random);
-            const BallScene hidden = behind_wall(open, 5.0, 0.5 * edge * 0.2, turn);
-            const double expected = 0.5 + 0.25 * (3.0 * edge - edge * edge * edge);
-            const double off = db_of_power(energy_by_rays(sonar, hidden.scene) / whole / expected);
-            CAPTURE_ALL(edge, turn);
-            CHECK(std::fabs(off) < 1.0);
+        constexpr int draws = 40;
+        for (std::uint32_t seed = 1; seed <= draws; ++seed) {
+            const auto energy = [&](const BallScene& ball) {
+                const auto engine =
+                    make_engine(ball.scene, {.type = EngineKind::rays, .octree = {}});
+                return energy_by(sonar, ball.scene, *engine, {}, {.seed = seed, .ping = 0},
+                                 {.multipath = false, .random = 1});
+            };
+            const double off = db_of_power(energy(small) / energy_of_points(sonar, small));
             squares += off * off / draws;
+            mean += energy(rough) / draws;
         }
-        CHECK(std::sqrt(squares) < 0.4);
+        // A highlight that is not steady has 6 dB.
+        CHECK(std::sqrt(squares) < 0.8);
+        CHECK(std::fabs(db_of_power(mean / energy_of_points(sonar, rough))) < 1.0);
+    }
+}
+
+// The highlight of a sphere of radius a has a normal distribution of RMS a s across.
+TEST_CASE("targets: what a wall hides of a highlight has no echo") {
+    const Sonar sonar = target_sonar(SonarKind::imaging);
+    const BallScene open({8.0, 0.0, 0.0}, 0.3, 48);
+    const double whole = energy_by_rays(sonar, open.scene);
+    for (const double edge : {-1.5, -0.7, 0.0, 0.4, 1.0}) {  // in units of a s
+        // The wall stands at half of the range to the highlight.
+        const double y = 0.5 * edge * 0.3 * std::tan(radians(slope_deg));
+        const BallScene hidden = behind_wall(open, 0.5 * (8.0 - 0.3), y, 0.0);
+        CAPTURE(edge);
+        CHECK(energy_by_rays(sonar, hidden.scene) / whole ==
+              test::approx(0.5 * std::erfc(-edge / std::sqrt(2.0))).epsilon(0.15));
+    }
+}
+
+// A sphere that scatters by Lambert's rule has the echo sqrt(1 - y^2 - z^2) dy dz, in radii.
+// Beyond y = t lies a share of 1/2 - (3 t - t^3) / 4.
+TEST_CASE("targets: a wall hides the share of a rough sphere that lies behind it") {
+    const Sonar sonar = target_sonar(SonarKind::imaging);
+    BallScene open({10.0, 0.0, 0.0}, 0.2, 24);
+    open.scene.materials[0].slope_rms_deg = 0.0;
+    const double whole = energy_by_rays(sonar, open.scene);
+    std::mt19937 random(27);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    double squares = 0.0;
+    constexpr int draws = 24;
+    for (int draw = 0; draw < draws; ++draw) {
+        const double edge = 0.5 * uniform(random);
+        const double turn = pi * uniform(random);
+        const BallScene hidden = behind_wall(open, 5.0, 0.5 * edge * 0.2, turn);
+        const double expected = 0.5 + 0.25 * (3.0 * edge - edge * edge * edge);
+        const double off = db_of_power(energy_by_rays(sonar, hidden.scene) / whole / expected);
+        CAPTURE_ALL(edge, turn);
+        CHECK(std::fabs(off) < 1.0);
+        squares += off * off / draws;
+    }
+    CHECK(std::sqrt(squares) < 0.4);
+}
+
+TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
+    const Sonar sonar = target_sonar(SonarKind::imaging);
+    const BallScene still({8.0, 0.3, 0.2}, 0.15, 32);
+    const double expected = energy_by_rays(sonar, still.scene);
+    // Spheres about the origin of their own frames, of half of the radius for the copy.
+    const auto mesh_of = [](float radius) {
+        Scene mesh = empty_scene();
+        add_sphere(mesh, {0, 0, 0}, radius, add_material(mesh, 0.8F), 32);
+        return mesh;
+    };
+    const Scene ball = mesh_of(0.15F);
+    const Scene half = mesh_of(0.075F);
+
+    Scene moving = metal_scene();
+    moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
+    const auto engine = make_engine(moving, {.type = EngineKind::rays, .octree = {}});
+    const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
+    CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) ==
+          test::approx(expected).epsilon(0.01));
+
+    Scene copied = metal_scene();
+    copied.shared_meshes.push_back({half.vertices, half.triangles, half.triangle_material});
+    MeshCopy copy{.mesh = 0, .instance = 0};
+    copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
+    copied.copies.push_back(copy);
+    CHECK(energy_by_rays(sonar, copied) == test::approx(expected).epsilon(0.01));
+}
+
+TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.4F);
+    add_box(scene, {-1, -1, -1}, {1, 1, 1}, rock);
+    const TargetShape cube =
+        target_shape({scene.vertices, scene.triangles, scene.triangle_material});
+    CHECK(cube.triangles.size() == 12);
+    CHECK(cube.curvature_m == 0.0F);
+    for (const TargetTriangle& triangle : cube.triangles) {
+        for (const Eigen::Vector3f& normal : triangle.normals)
+            CHECK((normal - triangle.normal).norm() < 1e-6F);
     }
 
-    TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
-        const Sonar sonar = target_sonar(SonarKind::imaging);
-        const BallScene still({8.0, 0.3, 0.2}, 0.15, 32);
-        const double expected = energy_by_rays(sonar, still.scene);
-        // Spheres about the origin of their own frames, of half of the radius for the copy.
-        const auto mesh_of = [](float radius) {
-            Scene mesh = empty_scene();
-            add_sphere(mesh, {0, 0, 0}, radius, add_material(mesh, 0.8F), 32);
-            return mesh;
-        };
-        const Scene ball = mesh_of(0.15F);
-        const Scene half = mesh_of(0.075F);
-
-        Scene moving = metal_scene();
-        moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
-        const auto engine = make_engine(moving, {.type = EngineKind::rays, .octree = {}});
-        const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
-        CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) ==
-              test::approx(expected).epsilon(0.01));
-
-        Scene copied = metal_scene();
-        copied.shared_meshes.push_back({half.vertices, half.triangles, half.triangle_material});
-        MeshCopy copy{.mesh = 0, .instance = 0};
-        copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
-        copied.copies.push_back(copy);
-        CHECK(energy_by_rays(sonar, copied) == test::approx(expected).epsilon(0.01));
-    }
-
-    TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
-        Scene scene = empty_scene();
-        const std::uint32_t rock = add_material(scene, 0.4F);
-        add_box(scene, {-1, -1, -1}, {1, 1, 1}, rock);
-        const TargetShape cube =
-            target_shape({scene.vertices, scene.triangles, scene.triangle_material});
-        CHECK(cube.triangles.size() == 12);
-        CHECK(cube.curvature_m == 0.0F);
-        for (const TargetTriangle& triangle : cube.triangles) {
-            for (const Eigen::Vector3f& normal : triangle.normals)
-                CHECK((normal - triangle.normal).norm() < 1e-6F);
-        }
-
-        for (const int sides : {16, 20, 40}) {
-            Scene round = empty_scene();
-            add_sphere(round, {3, 4, 5}, 2.0F, add_material(round, 0.4F), sides);
-            // The same triangles once more, seen from the other side.
-            std::vector<std::array<std::uint32_t, 3>> twice = round.triangles;
-            for (const auto& [a, b, c] : round.triangles)
-                twice.push_back({a, c, b});
-            const TargetShape sphere =
-                target_shape({round.vertices, twice, std::vector<std::uint32_t>(twice.size(), 0)});
-            CHECK(sphere.triangles.size() <= round.triangles.size());
-            CHECK(sphere.closed);
-            CHECK(sphere.curvature_m == test::approx(2.0).epsilon(0.01));
-            for (const TargetTriangle& triangle : sphere.triangles) {
-                for (int k = 0; k < 3; ++k) {
-                    const Eigen::Vector3f out =
-                        (sphere.vertices[triangle.corners[k]] - Eigen::Vector3f(3, 4, 5)) / 2.0F;
-                    CHECK((triangle.normals[k] - out).norm() < 1e-3F);
-                }
+    for (const int sides : {16, 20, 40}) {
+        Scene round = empty_scene();
+        add_sphere(round, {3, 4, 5}, 2.0F, add_material(round, 0.4F), sides);
+        // The same triangles once more, seen from the other side.
+        std::vector<std::array<std::uint32_t, 3>> twice = round.triangles;
+        for (const auto& [a, b, c] : round.triangles)
+            twice.push_back({a, c, b});
+        const TargetShape sphere =
+            target_shape({round.vertices, twice, std::vector<std::uint32_t>(twice.size(), 0)});
+        CHECK(sphere.triangles.size() <= round.triangles.size());
+        CHECK(sphere.closed);
+        CHECK(sphere.curvature_m == test::approx(2.0).epsilon(0.01));
+        for (const TargetTriangle& triangle : sphere.triangles) {
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::Vector3f out =
+                    (sphere.vertices[triangle.corners[k]] - Eigen::Vector3f(3, 4, 5)) / 2.0F;
+                CHECK((triangle.normals[k] - out).norm() < 1e-3F);
             }
         }
     }

@@ -63,78 +63,76 @@ double structure(double d) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    TEST_CASE("texture: factors have the mean 1 and the deviation of its octaves") {
-        const auto found = decibels(drawn_places(60000));
-        for (std::size_t of = 0; of < 2; ++of) {
-            const double octave_db = of == 0 ? sand_db : rest_db;
-            double factors = 0.0;
-            double sum = 0.0;
-            double squares = 0.0;
-            for (const auto& db : found) {
-                factors += std::pow(10.0, 0.1 * db[of]);
-                sum += db[of];
-                squares += db[of] * db[of];
-            }
-            const auto count = static_cast<double>(found.size());
-            const double average = sum / count;
-            CAPTURE(of);
-            // 60,000 places: standard errors are 0.2 % and 0.3 %; the longest waves are few, so
-            // that the field is not quite normal.
-            CHECK(std::fabs(factors / count - 1.0) < 0.02);
-            CHECK(std::fabs(std::sqrt(squares / count - average * average) /
-                                (octave_db * std::sqrt(1.0 * Texture::octaves)) -
-                            1.0) < 0.03);
-        }
-    }
-
-    TEST_CASE("texture: each octave of wavelength from 1.6 m up has the same variance") {
-        const std::vector<Eigen::Vector2d> places = drawn_places(20000);
-        std::mt19937 draws(5);
-        std::uniform_real_distribution<double> angle(0.0, 2.0 * pi);
-        const auto here = decibels(places);
-        for (const double d : {0.4, 1.6, 3.2, 12.0, 40.0}) {
-            std::vector<Eigen::Vector2d> moved = places;
-            for (Eigen::Vector2d& place : moved) {
-                const double a = angle(draws);
-                place += d * Eigen::Vector2d(std::cos(a), std::sin(a));
-            }
-            const auto there = decibels(moved);
-            double squares = 0.0;
-            for (std::size_t k = 0; k < places.size(); ++k)
-                squares += std::pow(there[k][0] - here[k][0], 2.0);
-            const double variance = squares / static_cast<double>(places.size());
-            CAPTURE(d);
-            // Lines between texels take a little of the shortest waves.
-            CHECK(std::fabs(std::sqrt(variance / structure(d)) / sand_db - 1.0) < 0.1);
-        }
-    }
-
-    TEST_CASE("texture: nobody sees the square of the short waves repeat") {
-        const std::vector<Eigen::Vector2d> places = drawn_places(20000);
-        std::vector<Eigen::Vector2d> moved = places;
-        for (Eigen::Vector2d& place : moved)
-            place.x() += Texture::fine.edge_m();
-        const auto here = decibels(places);
-        const auto there = decibels(moved);
-        double products = 0.0;
+TEST_CASE("texture: factors have the mean 1 and the deviation of its octaves") {
+    const auto found = decibels(drawn_places(60000));
+    for (std::size_t of = 0; of < 2; ++of) {
+        const double octave_db = of == 0 ? sand_db : rest_db;
+        double factors = 0.0;
+        double sum = 0.0;
         double squares = 0.0;
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            products += here[k][0] * there[k][0];
-            squares += here[k][0] * here[k][0];
+        for (const auto& db : found) {
+            factors += std::pow(10.0, 0.1 * db[of]);
+            sum += db[of];
+            squares += db[of] * db[of];
         }
-        CHECK(products / squares < 0.5);  // squares side by side have 0.7
+        const auto count = static_cast<double>(found.size());
+        const double average = sum / count;
+        CAPTURE(of);
+        // 60,000 places: standard errors are 0.2 % and 0.3 %; the longest waves are few, so
+        // that the field is not quite normal.
+        CHECK(std::fabs(factors / count - 1.0) < 0.02);
+        CHECK(std::fabs(std::sqrt(squares / count - average * average) /
+                            (octave_db * std::sqrt(1.0 * Texture::octaves)) -
+                        1.0) < 0.03);
     }
+}
 
-    TEST_CASE("texture: a place has the same factor from everywhere") {
-        const std::vector<Eigen::Vector2d> places = drawn_places(4000);
-        std::vector<Eigen::Vector2d> twice;
-        for (const Eigen::Vector2d& place : places)
-            twice.insert(twice.end(), {place, place});
-        const auto found = decibels(twice);
-        int off = 0;
-        for (std::size_t k = 0; k < found.size(); k += 2)
-            off += std::fabs(found[k][0] - found[k + 1][0]) > 0.02 ? 1 : 0;
-        CHECK(off == 0);
+TEST_CASE("texture: each octave of wavelength from 1.6 m up has the same variance") {
+    const std::vector<Eigen::Vector2d> places = drawn_places(20000);
+    std::mt19937 draws(5);
+    std::uniform_real_distribution<double> angle(0.0, 2.0 * pi);
+    const auto here = decibels(places);
+    for (const double d : {0.4, 1.6, 3.2, 12.0, 40.0}) {
+        std::vector<Eigen::Vector2d> moved = places;
+        for (Eigen::Vector2d& place : moved) {
+            const double a = angle(draws);
+            place += d * Eigen::Vector2d(std::cos(a), std::sin(a));
+        }
+        const auto there = decibels(moved);
+        double squares = 0.0;
+        for (std::size_t k = 0; k < places.size(); ++k)
+            squares += std::pow(there[k][0] - here[k][0], 2.0);
+        const double variance = squares / static_cast<double>(places.size());
+        CAPTURE(d);
+        // Lines between texels take a little of the shortest waves.
+        CHECK(std::fabs(std::sqrt(variance / structure(d)) / sand_db - 1.0) < 0.1);
     }
+}
+
+TEST_CASE("texture: nobody sees the square of the short waves repeat") {
+    const std::vector<Eigen::Vector2d> places = drawn_places(20000);
+    std::vector<Eigen::Vector2d> moved = places;
+    for (Eigen::Vector2d& place : moved)
+        place.x() += Texture::fine.edge_m();
+    const auto here = decibels(places);
+    const auto there = decibels(moved);
+    double products = 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        products += here[k][0] * there[k][0];
+        squares += here[k][0] * here[k][0];
+    }
+    CHECK(products / squares < 0.5);  // squares side by side have 0.7
+}
+
+TEST_CASE("texture: a place has the same factor from everywhere") {
+    const std::vector<Eigen::Vector2d> places = drawn_places(4000);
+    std::vector<Eigen::Vector2d> twice;
+    for (const Eigen::Vector2d& place : places)
+        twice.insert(twice.end(), {place, place});
+    const auto found = decibels(twice);
+    int off = 0;
+    for (std::size_t k = 0; k < found.size(); k += 2)
+        off += std::fabs(found[k][0] - found[k + 1][0]) > 0.02 ? 1 : 0;
+    CHECK(off == 0);
 }

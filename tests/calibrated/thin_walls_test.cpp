@@ -93,197 +93,190 @@ constexpr Setting settings[] = {{SonarKind::imaging, EngineKind::rays},
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // Waves that go to and fro in the wall add up to (1 - r^2) / (1 - r^2 e^(2 i k d)) of the
-    // amplitude, with r = (z - z_w) / (z + z_w).
-    TEST_CASE("thin walls: transmission is that of the waves in the wall") {
-        Draws draws(1);
-        for (int n = 0; n < 100; ++n) {
-            const Material wall = drawn_wall(draws);
-            const double hz = static_cast<double>(draws.scale(1e4F, 3e6F));
-            const double z = wall.density_kg_m3 * wall.sound_speed_m_s;
-            const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
-            const double r = (z - z_w) / (z + z_w);
-            const double kd = 2.0 * pi * hz / wall.sound_speed_m_s * 1e-3 * *wall.wall_mm;
-            const double expected =
-                std::norm((1.0 - r * r) / (1.0 - r * r * std::polar(1.0, 2.0 * kd)));
-            CHECK(wall_transmission(wall, hz, water) == test::approx(expected));
-
-            Material window = wall;
-            window.wall_mm = 1e3 * draws.whole(1, 5) * wall.sound_speed_m_s / (2.0 * hz);
-            CHECK(wall_transmission(window, hz, water) == test::approx(1.0));
-            window.wall_mm = 1e3 * (0.5 * draws.whole(1, 5) + 0.25) * wall.sound_speed_m_s / hz;
-            const double ratio = z / z_w;
-            CHECK(wall_transmission(window, hz, water) ==
-                  test::approx(4.0 / ((ratio + 1.0 / ratio) * (ratio + 1.0 / ratio))));
-        }
-        // The mass law of a thin heavy wall: the mass per area alone counts.
-        const Material steel{
-            .name = "steel", .density_kg_m3 = 7850.0, .sound_speed_m_s = 5890.0, .wall_mm = 0.05};
-        const double mass = 2.0 * pi * frequency_hz * 5e-5 * 7850.0 / (2.0 * 997.0 * 1480.0);
-        CHECK(wall_transmission(steel, frequency_hz, water) ==
-              test::approx(1.0 / (1.0 + mass * mass)).epsilon(0.01));
-        CHECK(wall_transmission({.name = "solid"}, frequency_hz, water) == 0.0);
-    }
-
-    TEST_CASE("thin walls: the echo of a plate falls by T^2 for each wall before it") {
-        for (const Setting& setting : settings) {
-            const Sonar sonar = wall_sonar(setting.kind);
-            for (std::uint32_t n = 0; n < 4; ++n) {
-                Draws draws(n);
-                const Eigen::Vector3f normal = -Eigen::Vector3f::UnitX() + 0.25F * draws.in_ball();
-                const float first_m = draws.between(1.5F, 3.0F);
-                const float rear_m = first_m + draws.between(1.0F, 3.0F);
-                const Material first = drawn_wall(draws);
-                const Material second = drawn_wall(draws);
-                WallScene walls(sonar);
-                walls.add_plate(rear_m, normal, 0);
-                const double alone = walls.energy(sonar, setting.engine);
-                walls.add_plate(first_m, normal, walls.add(first));
-                CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
-                CHECK(walls.energy(sonar, setting.engine) / alone ==
-                      test::approx(two_way(first)).epsilon(0.01));
-                walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
-                CHECK(walls.energy(sonar, setting.engine) / alone ==
-                      test::approx(two_way(first) * two_way(second)).epsilon(0.01));
-            }
-        }
-    }
-
-    // A closed body takes away a part of the echo behind it, and two walls give T^4 of it back. The
-    // bodies are targets or large enough for an engine.
-    TEST_CASE("thin walls: a shadow holds T^4 of the echo without the body") {
-        for (const Setting& setting : settings) {
-            const Sonar sonar = wall_sonar(setting.kind);
-            for (std::uint32_t n = 0; n < 4; ++n) {
-                Draws draws(10 + n);
-                const Material wall = drawn_wall(draws);
-                Material solid = wall;
-                solid.wall_mm.reset();
-                const float ball_m = draws.between(2.0F, 4.0F);
-                const float radius_m = draws.scale(0.15F, 0.6F);
-                WallScene open(sonar);
-                open.add_plate(ball_m + 2.0F, -Eigen::Vector3f::UnitX(), 0);
-                WallScene thin = open;
-                thin.add_ball(ball_m, radius_m, thin.add(wall));
-                WallScene opaque = open;
-                opaque.add_ball(ball_m, radius_m, opaque.add(solid));
-                const double whole = open.energy(sonar, setting.engine);
-                const double lit = opaque.energy(sonar, setting.engine);
-                const double back = thin.energy(sonar, setting.engine) - lit;
-                const double expected = two_way(wall) * two_way(wall) * (whole - lit);
-                CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
-                CHECK(std::fabs(back - expected) < 0.01 * (whole - lit));
-            }
-        }
-    }
-
-    // Pieces of a small bottle overlap, so the bundles through them meet the same surface twice.
-    // The mean may be off by four standard errors.
-    TEST_CASE("thin walls: speckle keeps the mean echo of a body in a bottle") {
-        constexpr std::uint64_t seeds = 400;
-        Draws draws(30);
+// Waves that go to and fro in the wall add up to (1 - r^2) / (1 - r^2 e^(2 i k d)) of the
+// amplitude, with r = (z - z_w) / (z + z_w).
+TEST_CASE("thin walls: transmission is that of the waves in the wall") {
+    Draws draws(1);
+    for (int n = 0; n < 100; ++n) {
         const Material wall = drawn_wall(draws);
-        for (const float radius_m : {0.05F, 0.2F}) {
-            double expected = 0.0;
-            for (const SpeckleMode mode :
-                 {SpeckleMode::none, SpeckleMode::scene, SpeckleMode::ping}) {
-                Sonar sonar = wall_sonar(SonarKind::imaging, mode);
-                WallScene bottle(sonar);
-                bottle.add_ball(4.0F, radius_m, bottle.add(wall));
-                bottle.add_ball(4.0F, 0.6F * radius_m, 0);
-                const auto engine = bottle.prepared(sonar, EngineKind::rays);
-                const auto energy_of = [&](std::uint64_t seed) {
-                    return total(
-                        render_ping(sonar, bottle.scene, *engine, {}, {seed, 0}).intensity);
-                };
-                if (mode == SpeckleMode::none) {
-                    expected = energy_of(0);
-                    CHECK(energy_of(1) == expected);
-                    continue;
-                }
-                double sum = 0.0;
-                double squares = 0.0;
-                for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-                    const double energy = energy_of(seed);
-                    sum += energy / seeds;
-                    squares += energy * energy / seeds;
-                }
-                CAPTURE_ALL(radius_m, static_cast<int>(mode));
-                const double standard_error = std::sqrt((squares - sum * sum) / seeds);
-                CHECK(std::fabs(sum - expected) < 4.0 * standard_error);
-                CHECK(standard_error < 0.06 * expected);
-            }
+        const double hz = static_cast<double>(draws.scale(1e4F, 3e6F));
+        const double z = wall.density_kg_m3 * wall.sound_speed_m_s;
+        const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
+        const double r = (z - z_w) / (z + z_w);
+        const double kd = 2.0 * pi * hz / wall.sound_speed_m_s * 1e-3 * *wall.wall_mm;
+        const double expected =
+            std::norm((1.0 - r * r) / (1.0 - r * r * std::polar(1.0, 2.0 * kd)));
+        CHECK(wall_transmission(wall, hz, water) == test::approx(expected));
+
+        Material window = wall;
+        window.wall_mm = 1e3 * draws.whole(1, 5) * wall.sound_speed_m_s / (2.0 * hz);
+        CHECK(wall_transmission(window, hz, water) == test::approx(1.0));
+        window.wall_mm = 1e3 * (0.5 * draws.whole(1, 5) + 0.25) * wall.sound_speed_m_s / hz;
+        const double ratio = z / z_w;
+        CHECK(wall_transmission(window, hz, water) ==
+              test::approx(4.0 / ((ratio + 1.0 / ratio) * (ratio + 1.0 / ratio))));
+    }
+    // The mass law of a thin heavy wall: the mass per area alone counts.
+    const Material steel{
+        .name = "steel", .density_kg_m3 = 7850.0, .sound_speed_m_s = 5890.0, .wall_mm = 0.05};
+    const double mass = 2.0 * pi * frequency_hz * 5e-5 * 7850.0 / (2.0 * 997.0 * 1480.0);
+    CHECK(wall_transmission(steel, frequency_hz, water) ==
+          test::approx(1.0 / (1.0 + mass * mass)).epsilon(0.01));
+    CHECK(wall_transmission({.name = "solid"}, frequency_hz, water) == 0.0);
+}
+
+TEST_CASE("thin walls: the echo of a plate falls by T^2 for each wall before it") {
+    for (const Setting& setting : settings) {
+        const Sonar sonar = wall_sonar(setting.kind);
+        for (std::uint32_t n = 0; n < 4; ++n) {
+            Draws draws(n);
+            const Eigen::Vector3f normal = -Eigen::Vector3f::UnitX() + 0.25F * draws.in_ball();
+            const float first_m = draws.between(1.5F, 3.0F);
+            const float rear_m = first_m + draws.between(1.0F, 3.0F);
+            const Material first = drawn_wall(draws);
+            const Material second = drawn_wall(draws);
+            WallScene walls(sonar);
+            walls.add_plate(rear_m, normal, 0);
+            const double alone = walls.energy(sonar, setting.engine);
+            walls.add_plate(first_m, normal, walls.add(first));
+            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
+            CHECK(walls.energy(sonar, setting.engine) / alone ==
+                  test::approx(two_way(first)).epsilon(0.01));
+            walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
+            CHECK(walls.energy(sonar, setting.engine) / alone ==
+                  test::approx(two_way(first) * two_way(second)).epsilon(0.01));
         }
     }
+}
 
-    // Front and back are Lambert's: the integral of mu cos^2 r^-4 10^(-0.2 alpha r), and T^2 of it.
-    TEST_CASE("thin walls: the back of a sphere has its echo at every range") {
-        constexpr double radius_m = 0.3;
-        Draws draws(31);
-        for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
-            Material wall = drawn_wall(draws);
-            wall.lambert_db = -20.0;
+// A closed body takes away a part of the echo behind it, and two walls give T^4 of it back. The
+// bodies are targets or large enough for an engine.
+TEST_CASE("thin walls: a shadow holds T^4 of the echo without the body") {
+    for (const Setting& setting : settings) {
+        const Sonar sonar = wall_sonar(setting.kind);
+        for (std::uint32_t n = 0; n < 4; ++n) {
+            Draws draws(10 + n);
+            const Material wall = drawn_wall(draws);
             Material solid = wall;
             solid.wall_mm.reset();
-            for (const float distance_m : {3.0F, 6.0F, 9.0F, 11.0F}) {
-                const Sonar sonar = wall_sonar(SonarKind::imaging);
-                const auto energy = [&](const Material& material) {
-                    WallScene ball(sonar);
-                    ball.add_ball(distance_m, radius_m, ball.add(material));
-                    return ball.energy(sonar, engine);
-                };
-                const double front = energy(solid);
-                const double back = energy(wall) - front;
-                const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
-                double sums[2] = {};
-                constexpr int steps = 4000;
-                for (int k = 0; k < steps; ++k) {
-                    const double z = radius_m * (2.0 * (k + 0.5) / steps - 1.0);
-                    const double r = std::sqrt(distance_m * distance_m + radius_m * radius_m -
-                                               2.0 * distance_m * z);
-                    const double cosine = (distance_m * z - radius_m * radius_m) / (radius_m * r);
-                    sums[cosine > 0.0 ? 0 : 1] +=
-                        cosine * cosine * std::pow(r, -4.0) * std::pow(10.0, -0.2 * alpha * r);
-                }
-                CAPTURE_ALL(distance_m, static_cast<int>(engine));
-                CHECK(back / front ==
-                      test::approx(two_way(wall) * sums[1] / sums[0]).epsilon(0.02));
-            }
+            const float ball_m = draws.between(2.0F, 4.0F);
+            const float radius_m = draws.scale(0.15F, 0.6F);
+            WallScene open(sonar);
+            open.add_plate(ball_m + 2.0F, -Eigen::Vector3f::UnitX(), 0);
+            WallScene thin = open;
+            thin.add_ball(ball_m, radius_m, thin.add(wall));
+            WallScene opaque = open;
+            opaque.add_ball(ball_m, radius_m, opaque.add(solid));
+            const double whole = open.energy(sonar, setting.engine);
+            const double lit = opaque.energy(sonar, setting.engine);
+            const double back = thin.energy(sonar, setting.engine) - lit;
+            const double expected = two_way(wall) * two_way(wall) * (whole - lit);
+            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
+            CHECK(std::fabs(back - expected) < 0.01 * (whole - lit));
         }
     }
+}
 
-    // The rear plate has a map. Without the sound through walls the error is a multiple of this.
-    TEST_CASE("thin walls: images agree with the reference's points") {
-        for (const Setting& setting : settings) {
-            Sonar sonar = wall_sonar(setting.kind);
-            Draws draws(20);
-            Material wall = drawn_wall(draws);
-            wall.lambert_db = -20.0;
+// Pieces of a small bottle overlap, so the bundles through them meet the same surface twice.
+// The mean may be off by four standard errors.
+TEST_CASE("thin walls: speckle keeps the mean echo of a body in a bottle") {
+    constexpr std::uint64_t seeds = 400;
+    Draws draws(30);
+    const Material wall = drawn_wall(draws);
+    for (const float radius_m : {0.05F, 0.2F}) {
+        double expected = 0.0;
+        for (const SpeckleMode mode : {SpeckleMode::none, SpeckleMode::scene, SpeckleMode::ping}) {
+            Sonar sonar = wall_sonar(SonarKind::imaging, mode);
             WallScene bottle(sonar);
-            bottle.add_plate(5.0F, {-1.0F, 0.2F, 0.4F}, 0);
-            bottle.add_plate(3.0F, {-1.0F, -0.1F, 0.1F}, bottle.add(wall));
-            bottle.add_ball(2.0F, 0.3F, 1);
-            bottle.scene.maps = std::make_shared<const GroundMaps>(
-                std::nullopt,
-                strengths(square_frame(40, 16.0),
-                          [&](int, int) { return draws.scale(1.0F, 4.0F); }),
-                std::vector<char>{1});
-            const auto engine = bottle.prepared(sonar, setting.engine);
-            const Reference reference =
-                cast_energy_reference(Caster(bottle.scene), bottle.scene, sonar.settings,
-                                      bottle.T_world_sensor, {0.02, 16.0, 4'000'000});
-            const auto error = [&] {
-                const Ping ping =
-                    render_ping(sonar, bottle.scene, *engine, {}, {}, direct_echoes_alone);
-                return image_error(ping.intensity, reference.intensity, reference.scored)
-                    .relative_l1;
+            bottle.add_ball(4.0F, radius_m, bottle.add(wall));
+            bottle.add_ball(4.0F, 0.6F * radius_m, 0);
+            const auto engine = bottle.prepared(sonar, EngineKind::rays);
+            const auto energy_of = [&](std::uint64_t seed) {
+                return total(render_ping(sonar, bottle.scene, *engine, {}, {seed, 0}).intensity);
             };
-            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), reference.noise);
-            const double through = error();
-            CHECK(through < 0.02 + reference.noise);
-            sonar.settings.wall_transmissions.clear();
-            CHECK(error() > 4.0 * through);
+            if (mode == SpeckleMode::none) {
+                expected = energy_of(0);
+                CHECK(energy_of(1) == expected);
+                continue;
+            }
+            double sum = 0.0;
+            double squares = 0.0;
+            for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+                const double energy = energy_of(seed);
+                sum += energy / seeds;
+                squares += energy * energy / seeds;
+            }
+            CAPTURE_ALL(radius_m, static_cast<int>(mode));
+            const double standard_error = std::sqrt((squares - sum * sum) / seeds);
+            CHECK(std::fabs(sum - expected) < 4.0 * standard_error);
+            CHECK(standard_error < 0.06 * expected);
         }
+    }
+}
+
+// Front and back are Lambert's: the integral of mu cos^2 r^-4 10^(-0.2 alpha r), and T^2 of it.
+TEST_CASE("thin walls: the back of a sphere has its echo at every range") {
+    constexpr double radius_m = 0.3;
+    Draws draws(31);
+    for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
+        Material wall = drawn_wall(draws);
+        wall.lambert_db = -20.0;
+        Material solid = wall;
+        solid.wall_mm.reset();
+        for (const float distance_m : {3.0F, 6.0F, 9.0F, 11.0F}) {
+            const Sonar sonar = wall_sonar(SonarKind::imaging);
+            const auto energy = [&](const Material& material) {
+                WallScene ball(sonar);
+                ball.add_ball(distance_m, radius_m, ball.add(material));
+                return ball.energy(sonar, engine);
+            };
+            const double front = energy(solid);
+            const double back = energy(wall) - front;
+            const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
+            double sums[2] = {};
+            constexpr int steps = 4000;
+            for (int k = 0; k < steps; ++k) {
+                const double z = radius_m * (2.0 * (k + 0.5) / steps - 1.0);
+                const double r =
+                    std::sqrt(distance_m * distance_m + radius_m * radius_m - 2.0 * distance_m * z);
+                const double cosine = (distance_m * z - radius_m * radius_m) / (radius_m * r);
+                sums[cosine > 0.0 ? 0 : 1] +=
+                    cosine * cosine * std::pow(r, -4.0) * std::pow(10.0, -0.2 * alpha * r);
+            }
+            CAPTURE_ALL(distance_m, static_cast<int>(engine));
+            CHECK(back / front == test::approx(two_way(wall) * sums[1] / sums[0]).epsilon(0.02));
+        }
+    }
+}
+
+// The rear plate has a map. Without the sound through walls the error is a multiple of this.
+TEST_CASE("thin walls: images agree with the reference's points") {
+    for (const Setting& setting : settings) {
+        Sonar sonar = wall_sonar(setting.kind);
+        Draws draws(20);
+        Material wall = drawn_wall(draws);
+        wall.lambert_db = -20.0;
+        WallScene bottle(sonar);
+        bottle.add_plate(5.0F, {-1.0F, 0.2F, 0.4F}, 0);
+        bottle.add_plate(3.0F, {-1.0F, -0.1F, 0.1F}, bottle.add(wall));
+        bottle.add_ball(2.0F, 0.3F, 1);
+        bottle.scene.maps = std::make_shared<const GroundMaps>(
+            std::nullopt,
+            strengths(square_frame(40, 16.0), [&](int, int) { return draws.scale(1.0F, 4.0F); }),
+            std::vector<char>{1});
+        const auto engine = bottle.prepared(sonar, setting.engine);
+        const Reference reference =
+            cast_energy_reference(Caster(bottle.scene), bottle.scene, sonar.settings,
+                                  bottle.T_world_sensor, {0.02, 16.0, 4'000'000});
+        const auto error = [&] {
+            const Ping ping =
+                render_ping(sonar, bottle.scene, *engine, {}, {}, direct_echoes_alone);
+            return image_error(ping.intensity, reference.intensity, reference.scored).relative_l1;
+        };
+        CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), reference.noise);
+        const double through = error();
+        CHECK(through < 0.02 + reference.noise);
+        sonar.settings.wall_transmissions.clear();
+        CHECK(error() > 4.0 * through);
     }
 }

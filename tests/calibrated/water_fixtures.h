@@ -2,7 +2,6 @@
 
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
 
 namespace sonarsim::test {

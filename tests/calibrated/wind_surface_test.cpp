@@ -1,7 +1,6 @@
 #include "simulate/calibrated/wind_surface.h"
 
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/directivity.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -33,74 +32,70 @@ Scene calm_scene(double wind_m_s) {
 
 }  // namespace
 
-TEST_SUITE("calibrated") {
-    // Numbers of the report's equations as an open implementation writes them
-    // (BochicTrdar/Fundamentos-de-Acustica-Submarina, apl_surface_sigma.m and apl_bub_sigma.m),
-    // evaluated apart from this program.
-    TEST_CASE("wind: strengths of the surface at high frequency") {
-        constexpr std::array angles{5.0, 20.0, 45.0, 70.0, 90.0};
-        struct Row {
-            double hz, wind;
-            std::array<double, 5> db;
-        };
-        for (const Row& row : {Row{25e3, 3.0, {-49.09, -48.85, -42.91, -26.59, 7.68}},
-                               Row{25e3, 10.0, {-31.80, -22.54, -19.39, -16.72, 4.40}},
-                               Row{100e3, 5.0, {-36.96, -36.65, -35.60, -24.44, 6.01}},
-                               Row{100e3, 15.0, {-34.00, -28.06, -24.84, -20.05, 0.07}},
-                               Row{400e3, 10.0, {-36.00, -30.07, -26.85, -23.72, -2.50}}}) {
-            for (std::size_t k = 0; k < angles.size(); ++k) {
-                CAPTURE_ALL(row.hz, row.wind, angles[k]);
-                CHECK(std::fabs(surface_db(angles[k], row.wind, row.hz) - row.db[k]) < 0.05);
-            }
+// Numbers of the report's equations as an open implementation writes them
+// (BochicTrdar/Fundamentos-de-Acustica-Submarina, apl_surface_sigma.m and apl_bub_sigma.m),
+// evaluated apart from this program.
+TEST_CASE("wind: strengths of the surface at high frequency") {
+    constexpr std::array angles{5.0, 20.0, 45.0, 70.0, 90.0};
+    struct Row {
+        double hz, wind;
+        std::array<double, 5> db;
+    };
+    for (const Row& row : {Row{25e3, 3.0, {-49.09, -48.85, -42.91, -26.59, 7.68}},
+                           Row{25e3, 10.0, {-31.80, -22.54, -19.39, -16.72, 4.40}},
+                           Row{100e3, 5.0, {-36.96, -36.65, -35.60, -24.44, 6.01}},
+                           Row{100e3, 15.0, {-34.00, -28.06, -24.84, -20.05, 0.07}},
+                           Row{400e3, 10.0, {-36.00, -30.07, -26.85, -23.72, -2.50}}}) {
+        for (std::size_t k = 0; k < angles.size(); ++k) {
+            CAPTURE_ALL(row.hz, row.wind, angles[k]);
+            CHECK(std::fabs(surface_db(angles[k], row.wind, row.hz) - row.db[k]) < 0.05);
         }
     }
+}
 
-    // At 30 degrees the fit of Chapman and Harris is 2.6 - 42.4 log b. With 20 knots and 1 kHz b is
-    // 158 x 200^-0.58 = 7.31, so -34.0 dB; at 10 degrees 3.3 b log(1 / 3) less, -45.5 dB.
-    TEST_CASE("wind: strengths of the surface at low frequency") {
-        const double wind = 20.0 * 1852.0 / 3600.0;
-        CHECK(surface_db(30.0, wind, 1e3) == test::approx(-34.04).epsilon(2e-3));
-        CHECK(surface_db(10.0, wind, 1e3) == test::approx(-45.55).epsilon(2e-3));
-        // More wind sends more back, and the strengths are finite in a calm and at the horizon.
-        CHECK(surface_db(20.0, 12.0, 3e3) > surface_db(20.0, 6.0, 3e3) + 3.0);
-        for (const double hz : {1e3, 1e5}) {
-            for (const double wind_m_s : {0.0, 0.5, 40.0})
-                CHECK(std::isfinite(wind_surface_section(0.0, wind_m_s, hz)));
+// At 30 degrees the fit of Chapman and Harris is 2.6 - 42.4 log b. With 20 knots and 1 kHz b is
+// 158 x 200^-0.58 = 7.31, so -34.0 dB; at 10 degrees 3.3 b log(1 / 3) less, -45.5 dB.
+TEST_CASE("wind: strengths of the surface at low frequency") {
+    const double wind = 20.0 * 1852.0 / 3600.0;
+    CHECK(surface_db(30.0, wind, 1e3) == test::approx(-34.04).epsilon(2e-3));
+    CHECK(surface_db(10.0, wind, 1e3) == test::approx(-45.55).epsilon(2e-3));
+    // More wind sends more back, and the strengths are finite in a calm and at the horizon.
+    CHECK(surface_db(20.0, 12.0, 3e3) > surface_db(20.0, 6.0, 3e3) + 3.0);
+    for (const double hz : {1e3, 1e5}) {
+        for (const double wind_m_s : {0.0, 0.5, 40.0})
+            CHECK(std::isfinite(wind_surface_section(0.0, wind_m_s, hz)));
+    }
+}
+
+// The integral over rings of sigma(grazing) b(theta)^4 2 pi r dr / r^4, b the one-way pattern.
+TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
+    const Sonar sonar = sounder_to_surface();
+    const double scale = piston_scale(radians(10.0));
+    const auto integral = [&](double wind_m_s) {
+        double sum = 0.0;
+        constexpr int steps = 20000;
+        const double most = radians(30.0);
+        for (int k = 0; k < steps; ++k) {
+            const double theta = most * (k + 0.5) / steps;
+            const double r = 10.0 / std::cos(theta);
+            const double pattern = piston_pattern(scale * std::sin(theta));
+            const double dr = 10.0 * std::sin(theta) / std::pow(std::cos(theta), 2);
+            const double absorbed =
+                power_of_db(-2.0 * calibrated_model_of(sonar).absorption_db_per_m * r);
+            sum += wind_surface_section(0.5 * pi - theta, wind_m_s, 1e5) * std::pow(pattern, 4) *
+                   2.0 * pi * dr / std::pow(r, 3) * absorbed * most / steps;
         }
-    }
-
-    // The integral over rings of sigma(grazing) b(theta)^4 2 pi r dr / r^4, b the one-way pattern.
-    TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
-        const Sonar sonar = sounder_to_surface();
-        const double scale = piston_scale(radians(10.0));
-        const auto integral = [&](double wind_m_s) {
-            double sum = 0.0;
-            constexpr int steps = 20000;
-            const double most = radians(30.0);
-            for (int k = 0; k < steps; ++k) {
-                const double theta = most * (k + 0.5) / steps;
-                const double r = 10.0 / std::cos(theta);
-                const double pattern = piston_pattern(scale * std::sin(theta));
-                const double dr = 10.0 * std::sin(theta) / std::pow(std::cos(theta), 2);
-                const double absorbed =
-                    power_of_db(-2.0 * calibrated_model_of(sonar).absorption_db_per_m * r);
-                sum += wind_surface_section(0.5 * pi - theta, wind_m_s, 1e5) *
-                       std::pow(pattern, 4) * 2.0 * pi * dr / std::pow(r, 3) * absorbed * most /
-                       steps;
-            }
-            return sum;
-        };
-        const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
-        const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
-        CHECK(db_of_power(total(windy) / total(breeze)) ==
-              test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
-        // The level: the taps of the pulse sum to its integral over range.
-        const CalibratedModel& model = calibrated_model_of(sonar);
-        const double taps = total(model.power_taps.taps);
-        CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
-        // The first echo is at 10 m.
-        const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
-        CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) ==
-              test::approx(10.0).epsilon(0.01));
-    }
+        return sum;
+    };
+    const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
+    const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
+    CHECK(db_of_power(total(windy) / total(breeze)) ==
+          test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
+    // The level: the taps of the pulse sum to its integral over range.
+    const CalibratedModel& model = calibrated_model_of(sonar);
+    const double taps = total(model.power_taps.taps);
+    CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
+    // The first echo is at 10 m.
+    const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
+    CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) == test::approx(10.0).epsilon(0.01));
 }

@@ -38,7 +38,8 @@ class Variants(Sandbox):
         self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
             dataset = self.dataset(self.out / one["folder"])
-            self.assertEqual((dataset["complete"], dataset["variant"]["drawn"]), (True, one["drawn"]))
+            self.assertEqual((dataset["complete"], dataset["seed"], dataset["variant"]["drawn"]),
+                             (True, one["seed"], one["drawn"]))
             self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
             self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
         # One alone, and fewer of them.
@@ -47,6 +48,8 @@ class Variants(Sandbox):
         self.assert_renders("--overwrite", "--set", "variants=3")
         self.assertEqual(self.variants(), index[:3])
         self.assertFalse((self.out / "variant_0003").exists())
+        self.assert_renders("--overwrite", "--set", "variants=2", "--seed", "8")
+        self.assertNotEqual(self.variants()[1]["drawn"], index[1]["drawn"])
 
     def test_rules_of_a_file_vary_the_sensor_that_is_named(self):
         own = "vary:\n  - {key: sensors.fls.noise.add_sigma"

@@ -25,8 +25,6 @@ std::string work_on(std::size_t i) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("core");
-
 TEST_CASE(
     "an ordered pipeline hands over each result once, in order, few at a time, until a stop") {
     const FourThreads four;
@@ -74,5 +72,3 @@ TEST_CASE("what work throws ends the pipeline") {
         "thirty");
     CHECK(finished <= 30);
 }
-
-TEST_SUITE_END();

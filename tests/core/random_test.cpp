@@ -6,8 +6,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("core");
-
 TEST_CASE("philox is the function of Random123") {
     r123::Philox4x32 reference;
     for (std::uint32_t i = 0; i < 1000; ++i) {
@@ -55,5 +53,3 @@ TEST_CASE("unit floats stay inside (0, 1); every seed, sensor, ping and stream h
     }
     CHECK(keys.size() == count);
 }
-
-TEST_SUITE_END();

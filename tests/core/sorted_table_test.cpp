@@ -3,8 +3,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("core");
-
 TEST_CASE("sorted table: a place is that of a binary search") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> step(0.1F, 2.0F);
@@ -21,5 +19,3 @@ TEST_CASE("sorted table: a place is that of a binary search") {
         CHECK(table(x) == std::ranges::lower_bound(numbers, x) - numbers.begin());
     }
 }
-
-TEST_SUITE_END();

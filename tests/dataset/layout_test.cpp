@@ -26,101 +26,69 @@ Ping image_of(std::vector<float> pixels) {
 
 }  // namespace
 
-TEST_SUITE("dataset") {
-    TEST_CASE("layout: files bear the pose's index in six digits, or as many as it takes") {
-        Layout layout = layout_of(small_mission("out"), 1);
-        CHECK(layout.file({7, 0}, {"polar", ".npy"}) == "out/front/polar/000007.npy");
-        CHECK(layout.file({7, 1}, {"fan", ".png"}) == "out/left/fan/000007.png");
-        CHECK(layout.file({999'999, 1}, {"meta", ".json"}) == "out/left/meta/999999.json");
-        const Mission mission = small_mission("out");
-        CHECK(make_layout(mission, {}, 1'000'000).number(7) == "000007");
-        CHECK(make_layout(mission, {}, 1'000'001).number(7) == "0000007");
-        CHECK(make_layout(mission, {}, 0).number(0) == "000000");
-    }
+TEST_CASE("layout: files bear the pose's index in six digits, or as many as it takes") {
+    Layout layout = layout_of(small_mission("out"), 1);
+    CHECK(layout.file({7, 0}, {"polar", ".npy"}) == "out/front/polar/000007.npy");
+    CHECK(layout.file({7, 1}, {"fan", ".png"}) == "out/left/fan/000007.png");
+    CHECK(layout.file({999'999, 1}, {"meta", ".json"}) == "out/left/meta/999999.json");
+    const Mission mission = small_mission("out");
+    CHECK(make_layout(mission, {}, 1'000'000).number(7) == "000007");
+    CHECK(make_layout(mission, {}, 1'000'001).number(7) == "0000007");
+    CHECK(make_layout(mission, {}, 0).number(0) == "000000");
+}
 
-    // The goldens do not see whether the places are right.
-    TEST_CASE("metadata: mounts, edges of bins and the apex of a fan, by hand") {
-        const Mission mission = small_mission("out");
-        const Assembly assembly = small_assembly(mission, 7);
-        const std::vector<Writers> writers = make_writers(mission, assembly);
-        const Json json = Json::parse(json_text(
-            describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
-        CHECK(json.at("complete") == false);
-        CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
-        const Json& left = json.at("sensors")[1];
-        const std::vector<double> ranges = left.at("range_edges_m");
-        const std::vector<double> azimuths = left.at("azimuth_edges_rad");
-        CHECK(ranges.size() == 49);
-        CHECK(ranges.front() == 0.1);
-        CHECK(ranges.back() == 10.0);
-        CHECK(azimuths.front() == test::approx(-radians(30)));
-        // The mount of the left sonar is turned by 90 degrees about z: q = (0, 0, sin 45, cos 45).
-        const std::vector<double> q = left.at("T_vehicle_sensor").at("quaternion_xyzw");
-        CHECK(q[2] == test::approx(std::sqrt(0.5)));
-        CHECK(q[3] == test::approx(std::sqrt(0.5)));
-        // The apex of a 60 degree fan: the middle of the lower edge.
-        const Json& fan = left.at("fan");
-        CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
-        CHECK(fan.at("apex_px")[1].get<double>() ==
-              test::approx(fan.at("height_px").get<double>()));
-    }
+// Mounts, poses and the edges of bins: cli/test_data_reader.py.
+TEST_CASE("metadata: the apex of a fan, and the numbers of a ping") {
+    const Mission mission = small_mission("out");
+    const Assembly assembly = small_assembly(mission, 7);
+    const std::vector<Writers> writers = make_writers(mission, assembly);
+    const Json json = Json::parse(
+        json_text(describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
+    CHECK(json.at("complete") == false);
+    CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
+    // The apex of a 60 degree fan: the middle of the lower edge.
+    const Json& fan = json.at("sensors")[1].at("fan");
+    CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
+    CHECK(fan.at("apex_px")[1].get<double>() == test::approx(fan.at("height_px").get<double>()));
+    const TracedPing traced;
+    const Ping ping;
+    const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
+    const Json of_ping = Json::parse(json_text(describe_ping(mission, assembly, finished)));
+    CHECK(of_ping.at("time_s") == test::approx(0.3));
+    CHECK(of_ping.at("clipped_pixels") == 13);
+}
 
-    TEST_CASE("metadata: the pose of a sensor is that of the vehicle with its mount") {
-        const Mission mission = small_mission("out");
-        Assembly assembly = small_assembly(mission, 7);
-        // At (1, 2, 3), turned by 90 degrees to port: the sonar half a metre ahead lies along y.
-        assembly.trajectory[3].T_world_vehicle = {rotation_from_rpy(0, 0, 0.5 * pi),
-                                                  Eigen::Vector3d(1, 2, 3)};
-        const TracedPing traced;
-        const Ping ping;
-        const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
-        const Json json = Json::parse(json_text(describe_ping(mission, assembly, finished)));
-        CHECK(json.at("time_s") == test::approx(0.3));
-        const std::vector<double> vehicle = json.at("T_world_vehicle").at("position_m");
-        CHECK(vehicle == std::vector<double>{1, 2, 3});
-        const std::vector<double> sensor = json.at("T_world_sensor").at("position_m");
-        CHECK(sensor[0] == test::approx(1.0));
-        CHECK(sensor[1] == test::approx(2.5));
-        CHECK(sensor[2] == test::approx(3.0));
-        const std::vector<double> q = json.at("T_world_sensor").at("quaternion_xyzw");
-        CHECK(q[2] == test::approx(std::sqrt(0.5)));
-        CHECK(q[3] == test::approx(std::sqrt(0.5)));
-        CHECK(json.at("clipped_pixels") == 13);
-    }
+TEST_CASE("metadata: numbers are the shortest that read back, names may be any bytes") {
+    CHECK(json_text({{"x", 0.1}}) == "{\n \"x\": 0.1\n}\n");
+    CHECK(json_text({{"x", 1.0 / 3.0}}) == "{\n \"x\": 0.3333333333333333\n}\n");
+    CHECK(json_text({{"x", "a\xff"}}) == "{\n \"x\": \"a\xef\xbf\xbd\"\n}\n");
+}
 
-    TEST_CASE("metadata: numbers are the shortest that read back, names may be any bytes") {
-        CHECK(json_text({{"x", 0.1}}) == "{\n \"x\": 0.1\n}\n");
-        CHECK(json_text({{"x", 1.0 / 3.0}}) == "{\n \"x\": 0.3333333333333333\n}\n");
-        CHECK(json_text({{"x", "a\xff"}}) == "{\n \"x\": \"a\xef\xbf\xbd\"\n}\n");
-    }
-
-    TEST_CASE("finite image: the brightest pixel is found, and one that is not finite, anywhere") {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        for (std::size_t at = 0; at < 19; ++at) {
-            std::vector<float> pixels(19, 0.25F);
-            pixels[at] = 3e38F;
-            CHECK(brightest_pixel(image_of(pixels), "fls", 0) == 3e38F);
-            for (const float bad : {std::nanf(""), -std::nanf(""), infinity, -infinity}) {
-                pixels[at] = bad;
-                CHECK_THROWS_WITH_AS(brightest_pixel(image_of(pixels), "fls", 12),
-                                     "sensor 'fls', ping at pose 12: 1 of 19 pixels are NaN or "
-                                     "infinite, a fault of sonarsim; please report it with the "
-                                     "mission",
-                                     std::runtime_error);
-            }
+TEST_CASE("finite image: the brightest pixel is found, and one that is not finite, anywhere") {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t at = 0; at < 19; ++at) {
+        std::vector<float> pixels(19, 0.25F);
+        pixels[at] = 3e38F;
+        CHECK(brightest_pixel(image_of(pixels), "fls", 0) == 3e38F);
+        for (const float bad : {std::nanf(""), -std::nanf(""), infinity, -infinity}) {
+            pixels[at] = bad;
+            CHECK_THROWS_WITH_AS(brightest_pixel(image_of(pixels), "fls", 12),
+                                 "sensor 'fls', ping at pose 12: 1 of 19 pixels are NaN or "
+                                 "infinite, a fault of sonarsim; please report it with the "
+                                 "mission",
+                                 std::runtime_error);
         }
     }
+}
 
-    TEST_CASE("finite image: a run ends before it writes one that is not") {
-        const TemporaryFolder temporary;
-        const Mission mission = small_mission(temporary.path / "out");
-        Assembly assembly = small_assembly(mission, 1);
-        change_paper_model(assembly.sonars[1], [](PaperModel& model) {
-            model.pixel_noise.lobe_scale[3] = std::nanf("");
-        });
-        CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
-                             doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
-                             std::runtime_error);
-        CHECK_FALSE(std::filesystem::exists(temporary.path / "out/left/polar/000000.npy"));
-    }
+TEST_CASE("finite image: a run ends before it writes one that is not") {
+    const TemporaryFolder temporary;
+    const Mission mission = small_mission(temporary.path / "out");
+    Assembly assembly = small_assembly(mission, 1);
+    change_paper_model(assembly.sonars[1],
+                       [](PaperModel& model) { model.pixel_noise.lobe_scale[3] = std::nanf(""); });
+    CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
+                         doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
+                         std::runtime_error);
+    CHECK_FALSE(std::filesystem::exists(temporary.path / "out/left/polar/000000.npy"));
 }

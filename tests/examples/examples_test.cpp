@@ -16,8 +16,6 @@ KindOfSonar obstacle_kind();
 using namespace sonarsim;
 using namespace sonarsim::test;
 
-TEST_SUITE_BEGIN("examples");
-
 TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     Scene scene = empty_scene();
     add_box(scene, {7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, add_material(scene, 0.6F));
@@ -102,5 +100,3 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
     CHECK(energy ==
           test::approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
 }
-
-TEST_SUITE_END();

@@ -2,7 +2,6 @@
 
 #include "core/pose.h"
 #include "input/mission/mission.h"
-#include "input/scene/scene.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
 #include "support/test.h"

@@ -5,7 +5,6 @@
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 
@@ -86,8 +85,6 @@ std::uint64_t dropped_by(const VisibilityEngine& engine, const Scene& scene,
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("hard");
 
 TEST_CASE("hard cases: every case keeps its bound") {
     for (const std::vector<HardCase>& cases :
@@ -183,5 +180,3 @@ TEST_CASE("an echo that is no number or out of range is dropped and counted, one
     CHECK(sums.weight(2) == 0.0F);
     CHECK(sums.weight(3) == test::approx(0.55));  // the part of 2.89 to 3.09 m below 3
 }
-
-TEST_SUITE_END();

@@ -13,138 +13,133 @@ RenderSummary run_with(const Mission& mission, const JobCallback& progress,
 
 }  // namespace
 
-TEST_SUITE("job") {
-    TEST_CASE("job: a ping that saw nothing is there like any other") {
-        // Straight up out of the tank: without noise every record is zero.
-        const TemporaryFolder temporary;
-        Mission mission = survey_mission(temporary.path / "out");
-        mission.sensors = {mission.sensors[2], mission.sensors[3]};
-        for (SonarConfig& sensor : mission.sensors) {
-            sensor.noise = {};
-            sensor.mount.rpy_deg = {180.0, 0.0, 0.0};
-            sensor.azimuth_deg = 20.0;
-        }
-        CHECK(run(mission).complete);
-        const RenderSummary again = run(mission);
-        CHECK(again.counts.echoes == 0);
-        CHECK(again.pings == 0);
-        CHECK(again.complete);
-        const Mission shards = [&] {
-            Mission other = mission;
-            other.output.folder = temporary.path / "shards";
-            return other;
-        }();
-        CHECK_FALSE(run(shards, {.shard = 0, .shards = 2}).complete);
-        CHECK(run(shards, {.shard = 1, .shards = 2}).complete);
+TEST_CASE("job: a ping that saw nothing is there like any other") {
+    // Straight up out of the tank: without noise every record is zero.
+    const TemporaryFolder temporary;
+    Mission mission = survey_mission(temporary.path / "out");
+    mission.sensors = {mission.sensors[2], mission.sensors[3]};
+    for (SonarConfig& sensor : mission.sensors) {
+        sensor.noise = {};
+        sensor.mount.rpy_deg = {180.0, 0.0, 0.0};
+        sensor.azimuth_deg = 20.0;
     }
+    CHECK(run(mission).complete);
+    const RenderSummary again = run(mission);
+    CHECK(again.counts.echoes == 0);
+    CHECK(again.pings == 0);
+    CHECK(again.complete);
+    const Mission shards = [&] {
+        Mission other = mission;
+        other.output.folder = temporary.path / "shards";
+        return other;
+    }();
+    CHECK_FALSE(run(shards, {.shard = 0, .shards = 2}).complete);
+    CHECK(run(shards, {.shard = 1, .shards = 2}).complete);
+}
 
-    TEST_CASE("job: a file that goes away during the run is no part of a complete dataset") {
-        const TemporaryFolder temporary;
-        const Mission mission = survey_mission(temporary.path / "out");
-        const fs::path& out = mission.output.folder;
-        const auto thief = [&](const RenderSummary& so_far, std::uint64_t total) {
-            if (so_far.pings == total) fs::remove(out / "front/polar/000000.npy");
+TEST_CASE("job: a file that goes away during the run is no part of a complete dataset") {
+    const TemporaryFolder temporary;
+    const Mission mission = survey_mission(temporary.path / "out");
+    const fs::path& out = mission.output.folder;
+    const auto thief = [&](const RenderSummary& so_far, std::uint64_t total) {
+        if (so_far.pings == total) fs::remove(out / "front/polar/000000.npy");
+    };
+    CHECK_THROWS_AS(run_with(mission, thief), std::runtime_error);
+    CHECK_FALSE(is_complete(out));
+    CHECK(run(mission).pings == 1);
+    const auto whole = contents(out);
+    // Records, which may also be replaced by a copy.
+    const fs::path file = out / "mbes/soundings.npy";
+    for (const bool replaced : {false, true}) {
+        fs::remove_all(out);
+        const auto thief_of_records = [&](const RenderSummary& so_far, std::uint64_t) {
+            if (so_far.pings != 1) return;
+            if (replaced) fs::copy_file(file, temporary.path / "copy");
+            fs::remove(file);
+            if (replaced) fs::rename(temporary.path / "copy", file);
         };
-        CHECK_THROWS_AS(run_with(mission, thief), std::runtime_error);
+        CHECK_THROWS_AS(run_with(mission, thief_of_records), std::runtime_error);
         CHECK_FALSE(is_complete(out));
-        CHECK(run(mission).pings == 1);
-        const auto whole = contents(out);
-        // Records, which may also be replaced by a copy.
-        const fs::path file = out / "mbes/soundings.npy";
-        for (const bool replaced : {false, true}) {
-            fs::remove_all(out);
-            const auto thief_of_records = [&](const RenderSummary& so_far, std::uint64_t) {
-                if (so_far.pings != 1) return;
-                if (replaced) fs::copy_file(file, temporary.path / "copy");
-                fs::remove(file);
-                if (replaced) fs::rename(temporary.path / "copy", file);
-            };
-            CHECK_THROWS_AS(run_with(mission, thief_of_records), std::runtime_error);
-            CHECK_FALSE(is_complete(out));
-            CHECK(run(mission).complete);
-            CHECK(contents(out) == whole);
-        }
-    }
-
-    TEST_CASE("job: lines of the journal that are torn or made up do not count") {
-        const TemporaryFolder temporary;
-        Mission mission = small_mission(temporary.path / "out");
-        mission.sensors[0].name = "journal";  // a sensor may have this name
-        run(mission);
-        const auto whole = contents(mission.output.folder);
-        fs::remove_all(mission.output.folder);
-        std::atomic<bool> stop = false;
-        const RenderSummary first = run_with(
-            mission, [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 4; },
-            stop);
-        CHECK(first.stopped);
-        const fs::path part = mission.output.folder / "journal.d/1-of-1.txt";
-        const std::string lines = read_file(part, 1 << 20);
-        write_file(part, lines.substr(0, lines.size() - 3) + "\nping 0 6 1 1 1 1 00000000\nping\n");
-        const RenderSummary rest = run(mission);
-        CHECK(rest.complete);
-        CHECK(rest.skipped > 0);
-        CHECK(contents(mission.output.folder) == whole);
-    }
-
-    TEST_CASE("job: a shard leaves the temporary files of another one, the last removes them") {
-        const TemporaryFolder temporary;
-        const Mission mission = small_mission(temporary.path / "out");
-        const fs::path half =
-            mission.output.folder / "front/polar/.000001.npy.0123456789abcdef.part";
-        // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8. The last two of 12 shards have none.
-        CHECK(run(mission, {.shard = 2, .shards = 3}).pings == 3);
-        write_file(half, "at work");
-        CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
-        CHECK(fs::exists(half));
-        CHECK_FALSE(is_complete(mission.output.folder));
-        CHECK(run(mission, {.shard = 1, .shards = 3}).complete);
-        CHECK_FALSE(fs::exists(half));
-        const RenderSummary idle =
-            run(small_mission(temporary.path / "idle"), {.shard = 11, .shards = 12});
-        CHECK(idle.pings == 0);
-        CHECK_FALSE(idle.complete);
-    }
-
-    TEST_CASE("job: options that make no sense are refused") {
-        const TemporaryFolder temporary;
-        const Mission mission = small_mission(temporary.path / "out");
-        CHECK_THROWS_AS(run(mission, {.threads = -1}), InputError);
-        CHECK_THROWS_AS(run(mission, {.shard = 2, .shards = 2}), InputError);
-        CHECK_THROWS_AS(run(mission, {.shard = -1, .shards = 2}), InputError);
-        CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 0}), InputError);
-        CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 2, .overwrite = true}), InputError);
-        CHECK_FALSE(fs::exists(temporary.path / "out"));
-    }
-
-    TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
-        const TemporaryFolder temporary;
-        run(survey_mission(temporary.path / "whole"));
-        const fs::path merged = temporary.path / "merged";
-        for (int shard = 0; shard < 2; ++shard) {
-            const fs::path out = temporary.path / std::to_string(shard);
-            run(survey_mission(out), {.shard = shard, .shards = 2});
-            fs::copy(out, merged,
-                     fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-        }
-        const RenderSummary summary = run(survey_mission(merged));
-        CHECK(summary.pings > 0);
-        CHECK(summary.complete);
-        CHECK(contents(merged) == contents(temporary.path / "whole"));
-    }
-
-    TEST_CASE(
-        "series: pictures are made again without a ping, an old folder of a sensor goes whole") {
-        const TemporaryFolder temporary;
-        const fs::path out = temporary.path / "out";
-        const Mission mission = survey_mission(out);
-        run(mission);
-        const auto whole = contents(out);
-        fs::remove(out / "sounder/echogram_view.png");
-        CHECK(run(mission).pings == 0);
-        CHECK(contents(out) == whole);
-        write_file(out / "sss/mine.txt", "mine");
-        CHECK(run(mission, {.overwrite = true}).pings == 25);
+        CHECK(run(mission).complete);
         CHECK(contents(out) == whole);
     }
+}
+
+TEST_CASE("job: lines of the journal that are torn or made up do not count") {
+    const TemporaryFolder temporary;
+    Mission mission = small_mission(temporary.path / "out");
+    mission.sensors[0].name = "journal";  // a sensor may have this name
+    run(mission);
+    const auto whole = contents(mission.output.folder);
+    fs::remove_all(mission.output.folder);
+    std::atomic<bool> stop = false;
+    const RenderSummary first = run_with(
+        mission, [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 4; },
+        stop);
+    CHECK(first.stopped);
+    const fs::path part = mission.output.folder / "journal.d/1-of-1.txt";
+    const std::string lines = read_file(part, 1 << 20);
+    write_file(part, lines.substr(0, lines.size() - 3) + "\nping 0 6 1 1 1 1 00000000\nping\n");
+    const RenderSummary rest = run(mission);
+    CHECK(rest.complete);
+    CHECK(rest.skipped > 0);
+    CHECK(contents(mission.output.folder) == whole);
+}
+
+TEST_CASE("job: a shard leaves the temporary files of another one, the last removes them") {
+    const TemporaryFolder temporary;
+    const Mission mission = small_mission(temporary.path / "out");
+    const fs::path half = mission.output.folder / "front/polar/.000001.npy.0123456789abcdef.part";
+    // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8. The last two of 12 shards have none.
+    CHECK(run(mission, {.shard = 2, .shards = 3}).pings == 3);
+    write_file(half, "at work");
+    CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
+    CHECK(fs::exists(half));
+    CHECK_FALSE(is_complete(mission.output.folder));
+    CHECK(run(mission, {.shard = 1, .shards = 3}).complete);
+    CHECK_FALSE(fs::exists(half));
+    const RenderSummary idle =
+        run(small_mission(temporary.path / "idle"), {.shard = 11, .shards = 12});
+    CHECK(idle.pings == 0);
+    CHECK_FALSE(idle.complete);
+}
+
+TEST_CASE("job: options that make no sense are refused") {
+    const TemporaryFolder temporary;
+    const Mission mission = small_mission(temporary.path / "out");
+    CHECK_THROWS_AS(run(mission, {.threads = -1}), InputError);
+    CHECK_THROWS_AS(run(mission, {.shard = 2, .shards = 2}), InputError);
+    CHECK_THROWS_AS(run(mission, {.shard = -1, .shards = 2}), InputError);
+    CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 0}), InputError);
+    CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 2, .overwrite = true}), InputError);
+    CHECK_FALSE(fs::exists(temporary.path / "out"));
+}
+
+TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
+    const TemporaryFolder temporary;
+    run(survey_mission(temporary.path / "whole"));
+    const fs::path merged = temporary.path / "merged";
+    for (int shard = 0; shard < 2; ++shard) {
+        const fs::path out = temporary.path / std::to_string(shard);
+        run(survey_mission(out), {.shard = shard, .shards = 2});
+        fs::copy(out, merged, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    }
+    const RenderSummary summary = run(survey_mission(merged));
+    CHECK(summary.pings > 0);
+    CHECK(summary.complete);
+    CHECK(contents(merged) == contents(temporary.path / "whole"));
+}
+
+TEST_CASE("series: pictures are made again without a ping, an old folder of a sensor goes whole") {
+    const TemporaryFolder temporary;
+    const fs::path out = temporary.path / "out";
+    const Mission mission = survey_mission(out);
+    run(mission);
+    const auto whole = contents(out);
+    fs::remove(out / "sounder/echogram_view.png");
+    CHECK(run(mission).pings == 0);
+    CHECK(contents(out) == whole);
+    write_file(out / "sss/mine.txt", "mine");
+    CHECK(run(mission, {.overwrite = true}).pings == 25);
+    CHECK(contents(out) == whole);
 }

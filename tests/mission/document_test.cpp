@@ -17,8 +17,6 @@ const std::string bracket = "a bracket is not closed, or a list or map stands wh
 
 }  // namespace
 
-TEST_SUITE_BEGIN("mission");
-
 TEST_CASE("duplicate keys, and what YAML can do and a mission may not") {
     const std::string anchors = "anchors (&name) are not supported; write the value out";
     check_refused(
@@ -108,7 +106,5 @@ TEST_CASE("messages stay short and printable") {
     CHECK(shown("abcdefg", 6) == "abcdef...");
     CHECK(shown("abc\xc3\xa4", 4) == "abc...");  // no half character
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

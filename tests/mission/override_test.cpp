@@ -1,4 +1,3 @@
-#include "input/mission/parse.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {
@@ -10,8 +9,6 @@ std::string set_refusal(const std::string& setting) {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("mission");
 
 TEST_CASE("an override replaces a key or adds one, the last one winning") {
     const std::string text = smallest_mission + "    every: 5\nseed: 1\n";
@@ -82,7 +79,5 @@ TEST_CASE("an override that cannot be read") {
     CHECK(parse(list, {"sensors.fls.mount.rpy_deg.0=9"}).sensors[0].mount.rpy_deg[0] == 9.0);
     CHECK(set_refusal("name=" + std::string(5000, '/')).size() < 300);
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -2,7 +2,6 @@
 
 #include "input/mission/preset.h"
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -27,8 +26,6 @@ std::string refusal_of_preset(const std::filesystem::path& folder, const std::st
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("mission");
 
 TEST_CASE("names and paths of a mission") {
     const Mission mission = parse(smallest_mission);
@@ -156,7 +153,5 @@ TEST_CASE("values that are read: engines, labels, classes, water, sensors in the
     CHECK(mission.sensors[2].name == "A-_9");
     CHECK(reads_back(mission));
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -1,18 +1,13 @@
 #include "input/mission/reference.h"
 
-#include "input/mission/resolved.h"
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
-
-TEST_SUITE_BEGIN("mission");
 
 TEST_CASE("every key has a meaning, and a default unless it is required or free text") {
     for (const SectionReference& section : mission_reference(sonar_keys())) {
         for (const KeyReference& key : section.keys) {
-            CAPTURE(section.path);
-            CAPTURE(key.name);
+            CAPTURE_ALL(section.path, key.name);
             CHECK(!key.meaning.empty());
             // A key that varies has one distribution, and a seabed may have no size, a rule no
             // area.
@@ -51,7 +46,5 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
         CHECK(yaml_of(parse(smallest_mission, settings)) == yaml_of(mission));
     }
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

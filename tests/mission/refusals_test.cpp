@@ -14,8 +14,6 @@ std::string particles(const std::string& model) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("mission");
-
 TEST_CASE("an unknown key is refused with the key that is near, or with all that are known") {
     check_refused(
         smallest_mission,
@@ -250,7 +248,5 @@ TEST_CASE("particles: what is refused, and where") {
                   particles("paper"));
     CHECK(refusal(before + points + particles("calibrated")).empty());
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -1,7 +1,6 @@
 #include "input/mission/resolved.h"
 
 #include "mission/fixtures.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 
@@ -49,8 +48,6 @@ Mission unusual_mission() {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("mission");
-
 TEST_CASE("the resolved mission reads back as the same mission") {
     Mission mission = unusual_mission();
     CHECK(reads_back(mission));
@@ -95,7 +92,5 @@ TEST_CASE("missions: the keys that differ are named, with both values") {
           " (objects: not given there, [] here; objects.0.x: 1 there, not given here)");
     CHECK(differing_keys("seed: [", one) == "");
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -1,10 +1,7 @@
 #include "input/mission/files.h"
-#include "input/mission/resolved.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {
-
-TEST_SUITE_BEGIN("mission");
 
 namespace {
 
@@ -129,7 +126,5 @@ TEST_CASE("what is refused of stock, clutter and areas") {
     begins("  clutter: {stock: [net]}\n", "4:12: 'clutter' needs the key 'density_per_m2'");
     begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:32: min_m must be below max_m");
 }
-
-TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -176,8 +176,6 @@ class PlainSonar {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("a whole noisy image has the distribution of the equations") {
     constexpr int pings = 400;
     const Scene scene = corner();
@@ -215,5 +213,3 @@ TEST_CASE("a whole noisy image has the distribution of the equations") {
     CHECK(2 * tested > bins);
     CHECK(worst > level);
 }
-
-TEST_SUITE_END();

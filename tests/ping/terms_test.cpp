@@ -1,4 +1,3 @@
-#include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
@@ -28,8 +27,6 @@ struct Everything {
 };
 
 }  // namespace
-
-TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("a term left out of an image is a term that the sonar's settings do not have") {
     const Everything all;
@@ -104,5 +101,3 @@ TEST_CASE("where the surface echoes nothing, an image is that of the multipath a
     }
     CHECK(alone > 10);
 }
-
-TEST_SUITE_END();

@@ -3,8 +3,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("product");
-
 TEST_CASE("detect return: a bright stretch of any place and length is found exactly") {
     // A run that is one bin longer or shorter than a stretch of n bins of brightness b over m bins
     // of 0 in all has the contrast b n (1 - n / m) / sqrt(n) times sqrt(n / (n + 1)), or times
@@ -41,5 +39,3 @@ TEST_CASE("detect return: nothing stands out of a level beam, or of none") {
     CHECK(detect_return(std::vector<double>(50, 0.0)).end == 0);
     CHECK(detect_return(std::vector<double>(1, 3.0)).end == 0);
 }
-
-TEST_SUITE_END();

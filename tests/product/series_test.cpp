@@ -5,93 +5,91 @@
 
 using namespace sonarsim;
 
-TEST_SUITE("product") {
-    TEST_CASE("bottom: the leading edge, to the bin") {
-        CHECK_FALSE(first_return({}, 0.0));
-        CHECK_FALSE(first_return(std::vector<float>(20, 0.0F), 0.1));
-        // However short the echo is, and at either end.
-        for (const int length : {1, 2, 3, 7}) {
-            for (const int start : {0, 1, 5, 13}) {
-                std::vector<float> column(20, 0.0F);
-                std::fill_n(column.begin() + start, length, 0.3F);
-                CAPTURE_ALL(length, start);
-                CHECK(first_return(column, 0.0) == start);
-                CHECK(first_return(column, 0.1) == start);
-            }
+TEST_CASE("bottom: the leading edge, to the bin") {
+    CHECK_FALSE(first_return({}, 0.0));
+    CHECK_FALSE(first_return(std::vector<float>(20, 0.0F), 0.1));
+    // However short the echo is, and at either end.
+    for (const int length : {1, 2, 3, 7}) {
+        for (const int start : {0, 1, 5, 13}) {
+            std::vector<float> column(20, 0.0F);
+            std::fill_n(column.begin() + start, length, 0.3F);
+            CAPTURE_ALL(length, start);
+            CHECK(first_return(column, 0.0) == start);
+            CHECK(first_return(column, 0.1) == start);
         }
     }
+}
 
-    TEST_CASE("bottom: neither a bright target on it nor noise above it misleads") {
-        // R H / r from bin 60 of 400, a wreck four times as bright far out; noise of a tenth of
-        // the bottom's nearest echo over everything. The running mean of three Rayleigh values of
-        // mean m has a deviation of 0.3 m: to reach half of the level is 10 of those away.
-        std::mt19937 random(5);
-        std::uniform_real_distribution<double> unit(1e-9, 1.0);
-        int worst = 0;
-        for (int trial = 0; trial < 200; ++trial) {
-            std::vector<float> column(400);
-            for (int i = 0; i < 400; ++i) {
-                const double bottom = i < 60 ? 0.0 : 0.2 * 60.0 / i;
-                const double wreck = i >= 250 && i < 270 ? 0.8 : 0.0;
-                const double noise = 0.016 * std::sqrt(-2.0 * std::log(unit(random)));
-                column[i] = static_cast<float>(bottom + wreck + noise);
-            }
-            worst = std::max(worst, std::abs(first_return(column, 0.1).value() - 60));
+TEST_CASE("bottom: neither a bright target on it nor noise above it misleads") {
+    // R H / r from bin 60 of 400, a wreck four times as bright far out; noise of a tenth of
+    // the bottom's nearest echo over everything. The running mean of three Rayleigh values of
+    // mean m has a deviation of 0.3 m: to reach half of the level is 10 of those away.
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(1e-9, 1.0);
+    int worst = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<float> column(400);
+        for (int i = 0; i < 400; ++i) {
+            const double bottom = i < 60 ? 0.0 : 0.2 * 60.0 / i;
+            const double wreck = i >= 250 && i < 270 ? 0.8 : 0.0;
+            const double noise = 0.016 * std::sqrt(-2.0 * std::log(unit(random)));
+            column[i] = static_cast<float>(bottom + wreck + noise);
         }
-        CHECK(worst <= 1);
+        worst = std::max(worst, std::abs(first_return(column, 0.1).value() - 60));
     }
+    CHECK(worst <= 1);
+}
 
-    TEST_CASE("bottom: a swath that is faint at nadir has its first return there") {
-        // As a side-scan sonar whose beam points to the side: the bottom from bin 400 of 1,500 on,
-        // first 20 dB and then less below its level; the water 38 dB below. Speckle over all.
-        std::mt19937 random(7);
-        std::exponential_distribution<double> speckle;
-        for (int trial = 0; trial < 200; ++trial) {
-            std::vector<float> column(1500);
-            for (int i = 0; i < 1500; ++i) {
-                const double beam = std::clamp((i - 390) / 150.0, 0.0, 1.0);
-                const double mean = i < 400 ? 1.5e-4 : 0.01 + beam * beam;
-                column[i] = static_cast<float>(mean * speckle(random));
-            }
-            CAPTURE(trial);
-            CHECK(first_return(column, 0.1).value() > 440);
-            const int first = first_return_of_swath(column).value();
-            CHECK((400 <= first && first < 425));
+TEST_CASE("bottom: a swath that is faint at nadir has its first return there") {
+    // As a side-scan sonar whose beam points to the side: the bottom from bin 400 of 1,500 on,
+    // first 20 dB and then less below its level; the water 38 dB below. Speckle over all.
+    std::mt19937 random(7);
+    std::exponential_distribution<double> speckle;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<float> column(1500);
+        for (int i = 0; i < 1500; ++i) {
+            const double beam = std::clamp((i - 390) / 150.0, 0.0, 1.0);
+            const double mean = i < 400 ? 1.5e-4 : 0.01 + beam * beam;
+            column[i] = static_cast<float>(mean * speckle(random));
         }
+        CAPTURE(trial);
+        CHECK(first_return(column, 0.1).value() > 440);
+        const int first = first_return_of_swath(column).value();
+        CHECK((400 <= first && first < 425));
     }
+}
 
-    TEST_CASE("bottom: the first return of a swath under noise is that at half of the level") {
-        CHECK_FALSE(first_return_of_swath({}));
-        CHECK_FALSE(first_return_of_swath(std::vector<float>(20, 0.0F)));
-        std::vector<float> column(100, 0.05F);
-        std::fill(column.begin() + 30, column.end(), 0.3F);
-        CHECK(first_return_of_swath(column) == 30);
-        column[20] = 0.12F;  // neither does a bin of noise change it
-        CHECK(first_return_of_swath(column) == 30);
-    }
+TEST_CASE("bottom: the first return of a swath under noise is that at half of the level") {
+    CHECK_FALSE(first_return_of_swath({}));
+    CHECK_FALSE(first_return_of_swath(std::vector<float>(20, 0.0F)));
+    std::vector<float> column(100, 0.05F);
+    std::fill(column.begin() + 30, column.end(), 0.3F);
+    CHECK(first_return_of_swath(column) == 30);
+    column[20] = 0.12F;  // neither does a bin of noise change it
+    CHECK(first_return_of_swath(column) == 30);
+}
 
-    TEST_CASE("gain: one occupied value in a hundred is brighter") {
-        Gain gain;
-        CHECK(gain.white() == 1.0);
-        std::vector<float> values(5000, 0.0F);
-        for (int i = 1; i <= 1000; ++i)
-            values.push_back(static_cast<float>(i) * 1e-3F);
-        gain.add(values);
-        CHECK(gain.white() == test::approx(0.99).epsilon(0.035));
-        CHECK(shade(0.25F, 1.0F) == 0.5F);
-        CHECK(shade(7.0F, 1.0F) == 1.0F);
-        CHECK(shade(-1.0F, 1.0F) == 0.0F);
-    }
+TEST_CASE("gain: one occupied value in a hundred is brighter") {
+    Gain gain;
+    CHECK(gain.white() == 1.0);
+    std::vector<float> values(5000, 0.0F);
+    for (int i = 1; i <= 1000; ++i)
+        values.push_back(static_cast<float>(i) * 1e-3F);
+    gain.add(values);
+    CHECK(gain.white() == test::approx(0.99).epsilon(0.035));
+    CHECK(shade(0.25F, 1.0F) == 0.5F);
+    CHECK(shade(7.0F, 1.0F) == 1.0F);
+    CHECK(shade(-1.0F, 1.0F) == 0.0F);
+}
 
-    TEST_CASE("picture: axis marks are round, nothing is drawn outside") {
-        CHECK(round_up_125(1.0) == 1.0);
-        CHECK(round_up_125(0.03) == test::approx(0.05));
-        CHECK(round_down_125(4.9) == 2.0);
-        CHECK(round_down_125(0.02) == test::approx(0.02));
-        CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});
-        Picture picture(10, 8, backdrop);
-        fill(picture, -5, -5, 100, 6, ink);
-        write(picture, 9, 4, "8", Align::left, ink);
-        CHECK(std::ranges::count(picture.pixels, ink) == 10 + 2);  // a row, and the 8's left edge
-    }
+TEST_CASE("picture: axis marks are round, nothing is drawn outside") {
+    CHECK(round_up_125(1.0) == 1.0);
+    CHECK(round_up_125(0.03) == test::approx(0.05));
+    CHECK(round_down_125(4.9) == 2.0);
+    CHECK(round_down_125(0.02) == test::approx(0.02));
+    CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});
+    Picture picture(10, 8, backdrop);
+    fill(picture, -5, -5, 100, 6, ink);
+    write(picture, 9, 4, "8", Align::left, ink);
+    CHECK(std::ranges::count(picture.pixels, ink) == 10 + 2);  // a row, and the 8's left edge
 }

@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
@@ -21,8 +20,6 @@ std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int 
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("validation");
 
 TEST_CASE("measured errors: the same for any number of threads, and below the goal of the rays") {
     Mission mission = small_mission("unused");
@@ -159,5 +156,3 @@ TEST_CASE("measured errors: the noise of a reference does not enter") {
     CHECK(ratios[ratios.size() / 2] > 1.0 / 1.5);
     CHECK(ratios[ratios.size() / 2] < 1.5);
 }
-
-TEST_SUITE_END();

@@ -3,9 +3,7 @@
 #include "core/random.h"
 #include "simulate/reference/energy_reference.h"
 #include "simulate/reference/reference_cast.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/calibrated.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -39,16 +37,12 @@ SurfaceSums sums_over(const Scene& scene, int rays, std::uint32_t start) {
 
 Sonar coarse_sonar(SonarKind kind) {
     SonarConfig config = calibrated(default_sonar(kind), 4e5);
-    config.range_min_m = 0.5;
-    config.range_max_m = 12.0;
-    config.range_bins = 96;
+    set_range(config, 0.5, 12.0, 96);
     config.azimuth_bins = 32;
     return make_sonar(config, {0.01});
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("validation");
 
 TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
     // Derivation in tests/sonar/imaging_test.cpp.
@@ -166,8 +160,7 @@ TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from 
         const View view{radians(60.0), radians(20.0), 0.5, 9.5, 100, 32, 0.03};
         const Reference truth = cast_reference(Caster(scene), scene, view, Pose{},
                                                {.noise = 0.0, .rays_max = 1'000'000});
-        CAPTURE(seed);
-        CAPTURE(truth.noise);
+        CAPTURE_ALL(seed, truth.noise);
         CHECK(truth.noise < 0.02);
         CHECK(std::ranges::count(truth.scored, 1) > 12);
     }
@@ -256,12 +249,8 @@ TEST_CASE("the calibrated reference agrees with the engines") {
         const Ping ping = render_ping(sonar, scene, *make_engine(scene, engine), T_world_vehicle,
                                       {}, direct_echoes_alone);
         const ImageError error = image_error(ping.intensity, reference.intensity);
-        CAPTURE(name_of(kind));
-        CAPTURE(sonar.settings.view.guards.count);
-        CAPTURE(reference.noise);
+        CAPTURE_ALL(name_of(kind), sonar.settings.view.guards.count, reference.noise);
         CHECK(error.relative_l1 < 0.02 + reference.noise);
         CHECK(reference.noise < 0.03);
     }
 }
-
-TEST_SUITE_END();

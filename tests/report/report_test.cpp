@@ -61,8 +61,6 @@ const MultipathRow& row_of(const std::vector<MultipathRow>& rows, int epsilon, d
 
 }  // namespace
 
-TEST_SUITE_BEGIN("benchmark");
-
 TEST_CASE("a report has a sane row per setting") {
     Mission mission = small_mission("unused");
     mission.sensors.resize(1);
@@ -192,8 +190,7 @@ TEST_CASE("multipath rows of a corner are sane, for each sonar that has multipat
     const std::vector<MultipathRow> rows = measure(mission, corner_assembly(mission));
     REQUIRE(rows.size() == 13);  // exact, 4 x 3 clusters
     for (const MultipathRow& row : rows) {
-        CAPTURE(row.setting.epsilon_bins);
-        CAPTURE(row.setting.delta_deg);
+        CAPTURE_ALL(row.setting.epsilon_bins, row.setting.delta_deg);
         CHECK(row.sensor == "front");
         CHECK(row.exact_bins > 20);
         // On two planes every cluster is exact up to rounding at the edges of bins.
@@ -237,5 +234,3 @@ TEST_CASE("the settings of multipath hold the mission's own way once") {
     CHECK(std::ranges::count(rows, true, &MultipathRow::current) == 1);
     CHECK(rows[0].current);
 }
-
-TEST_SUITE_END();

@@ -4,8 +4,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("scene");
-
 TEST_CASE("objects: patterns") {
     CHECK(fits_pattern("*", ""));
     CHECK(fits_pattern("ship_*", "ship_mast"));
@@ -66,5 +64,3 @@ TEST_CASE("objects: rules that cannot be meant") {
                              doctest::Contains(("m.yaml:7:3: " + rules.second).c_str()),
                              InputError);
 }
-
-TEST_SUITE_END();

@@ -51,58 +51,56 @@ Surface drum() {
 
 }  // namespace
 
-TEST_SUITE("scene") {
-    TEST_CASE("standing: on a broad base, not on an edge or a point") {
-        CHECK(rests_upright(tyre(), 2));
-        CHECK_FALSE(rests_upright(tyre(), 0));
-        CHECK_FALSE(rests_upright(tyre(), 1));
-        CHECK(rests_upright(drum(), 2));
-        CHECK_FALSE(rests_upright(drum(), 1));
-        for (int axis = 0; axis < 3; ++axis)
-            CHECK_FALSE(rests_upright(ball(), axis));
-        CHECK_FALSE(rests_upright(Surface{}, 2));
-    }
+TEST_CASE("standing: on a broad base, not on an edge or a point") {
+    CHECK(rests_upright(tyre(), 2));
+    CHECK_FALSE(rests_upright(tyre(), 0));
+    CHECK_FALSE(rests_upright(tyre(), 1));
+    CHECK(rests_upright(drum(), 2));
+    CHECK_FALSE(rests_upright(drum(), 1));
+    for (int axis = 0; axis < 3; ++axis)
+        CHECK_FALSE(rests_upright(ball(), axis));
+    CHECK_FALSE(rests_upright(Surface{}, 2));
+}
 
-    TEST_CASE("standing: asks for up only where the format does not say it") {
-        // As it is read with y up: the file's z lies along the world's -y.
-        Surface lying = drum();
-        for (Eigen::Vector3d& p : lying.vertices)
-            p = Eigen::Vector3d(p.x(), -p.z(), p.y());
-        CHECK(up_question({.file = "drum.stl"}, lying).ends_with("does its z point up? up: z"));
-        CHECK(up_question({.file = "drum.stl", .z_up = true}, lying).empty());
-        CHECK(up_question({.file = "drum.stl", .up_given = true}, lying).empty());
-        // A sea floor of 20 m x 20 m with a relief of 2 m.
-        Surface floor = surface_from([](double u, double v) -> Eigen::Vector3d {
-            return {20 * u, -(1 + std::sin(5 * u) * std::cos(4 * v)), 20 * v};
-        });
-        CHECK(up_question({.file = "floor.ply"}, floor) ==
-              "floor.ply stands on its edge with y up and would lie flat with z up: does its z "
-              "point up? up: z");
-        for (Eigen::Vector3d& p : floor.vertices)
-            p = Eigen::Vector3d(p.x(), p.z(), -p.y());
-        CHECK(up_question({.file = "floor.ply"}, floor).empty());
-        CHECK(up_question({.file = "drum.glb"}, lying).empty());
-        CHECK(up_question({.file = "drum.obj"}, drum()).empty());
-        CHECK(up_question({.file = "ball.obj"}, ball()).empty());
-    }
+TEST_CASE("standing: asks for up only where the format does not say it") {
+    // As it is read with y up: the file's z lies along the world's -y.
+    Surface lying = drum();
+    for (Eigen::Vector3d& p : lying.vertices)
+        p = Eigen::Vector3d(p.x(), -p.z(), p.y());
+    CHECK(up_question({.file = "drum.stl"}, lying).ends_with("does its z point up? up: z"));
+    CHECK(up_question({.file = "drum.stl", .z_up = true}, lying).empty());
+    CHECK(up_question({.file = "drum.stl", .up_given = true}, lying).empty());
+    // A sea floor of 20 m x 20 m with a relief of 2 m.
+    Surface floor = surface_from([](double u, double v) -> Eigen::Vector3d {
+        return {20 * u, -(1 + std::sin(5 * u) * std::cos(4 * v)), 20 * v};
+    });
+    CHECK(up_question({.file = "floor.ply"}, floor) ==
+          "floor.ply stands on its edge with y up and would lie flat with z up: does its z "
+          "point up? up: z");
+    for (Eigen::Vector3d& p : floor.vertices)
+        p = Eigen::Vector3d(p.x(), p.z(), -p.y());
+    CHECK(up_question({.file = "floor.ply"}, floor).empty());
+    CHECK(up_question({.file = "drum.glb"}, lying).empty());
+    CHECK(up_question({.file = "drum.obj"}, drum()).empty());
+    CHECK(up_question({.file = "ball.obj"}, ball()).empty());
+}
 
-    TEST_CASE("standing: how a file is read, in words") {
-        CHECK(reading_of({.file = "a.stl"}) == "metres, y up (no `up` given)");
-        CHECK(reading_of({.file = "a.stl", .unit_m = 1e-3, .z_up = true, .up_given = true}) ==
-              "millimetres, z up");
-    }
+TEST_CASE("standing: how a file is read, in words") {
+    CHECK(reading_of({.file = "a.stl"}) == "metres, y up (no `up` given)");
+    CHECK(reading_of({.file = "a.stl", .unit_m = 1e-3, .z_up = true, .up_given = true}) ==
+          "millimetres, z up");
+}
 
-    TEST_CASE("units: a question where millimetres would fit the ranges") {
-        const auto question = [](double length_m, double unit_m, auto kind) {
-            return unit_question(length_m, unit_m, 10.0, kind);
-        };
-        CHECK(question(650.0, 1.0, long_object) == "650 m long: millimetres? units: mm");
-        CHECK(question(650.0, 1e-3, long_object).empty());
-        CHECK(question(15.0, 1.0, long_object).empty());  // a large object
-        CHECK(question(2e4, 1.0, long_object).empty());   // 20 m would not fit, either
-        CHECK(question(650.0, 1.0, long_place).empty());  // a large place
-        CHECK(question(8000.0, 1.0, long_place) == "8000 m long: millimetres? units: mm");
-        CHECK(question(6.5e-4, 1e-3, long_object) == "0.00065 m long: metres? units: m");
-        CHECK(question(0.0, 1e-3, long_object).empty());
-    }
+TEST_CASE("units: a question where millimetres would fit the ranges") {
+    const auto question = [](double length_m, double unit_m, auto kind) {
+        return unit_question(length_m, unit_m, 10.0, kind);
+    };
+    CHECK(question(650.0, 1.0, long_object) == "650 m long: millimetres? units: mm");
+    CHECK(question(650.0, 1e-3, long_object).empty());
+    CHECK(question(15.0, 1.0, long_object).empty());  // a large object
+    CHECK(question(2e4, 1.0, long_object).empty());   // 20 m would not fit, either
+    CHECK(question(650.0, 1.0, long_place).empty());  // a large place
+    CHECK(question(8000.0, 1.0, long_place) == "8000 m long: millimetres? units: mm");
+    CHECK(question(6.5e-4, 1e-3, long_object) == "0.00065 m long: metres? units: m");
+    CHECK(question(0.0, 1e-3, long_object).empty());
 }

@@ -1,6 +1,5 @@
 #include "simulate/product/echogram.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
@@ -17,8 +16,6 @@ SonarConfig echosounder() {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its depth on") {
     // v . n = H / r at every point of the bottom; the cone of half-angle psi ends at H / cos psi.
@@ -65,5 +62,3 @@ TEST_CASE("echosounder: range noise does not fade") {
     }
     CHECK(latest > 0.2);  // the largest of 20 draws of mean 0.3 m; below 0.2 once in 10^6
 }
-
-TEST_SUITE_END();

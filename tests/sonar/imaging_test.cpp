@@ -1,5 +1,4 @@
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
@@ -36,8 +35,6 @@ std::vector<float> lobe_of(const SonarConfig& config) {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin on") {
     // Height H over a plane, pitched down by p. On the plane v . n = H / r, and the area of a
@@ -137,5 +134,3 @@ TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") 
         CHECK(lobe_of(config)[0] == 1.5F);
     }
 }
-
-TEST_SUITE_END();

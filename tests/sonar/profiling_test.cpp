@@ -2,7 +2,6 @@
 #include "simulate/product/soundings.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
@@ -18,8 +17,6 @@ SonarConfig profiling() {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
     // The middle of a run of whole bins is off by 0.20 bins on average.
@@ -121,5 +118,3 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
         CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
     }
 }
-
-TEST_SUITE_END();

@@ -1,6 +1,5 @@
 #include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
@@ -30,8 +29,6 @@ Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE(
     "sidescan: a flat bottom first returns at its altitude, then I = R H / r, on both sides") {
@@ -104,5 +101,3 @@ TEST_CASE("sidescan: a target to port is in the left half only; turned round, in
     CHECK(std::fabs(bin_centre(sonar, static_cast<int>(n - 1 - nearest) - 10) -
                     (std::hypot(8.0, H - 1.0) - 0.5)) <= 0.1);
 }
-
-TEST_SUITE_END();

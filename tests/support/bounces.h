@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/pose.h"
-#include "input/scene/scene.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"

@@ -1,6 +1,5 @@
 #include "support/lattices.h"
 
-#include "core/elementary.h"
 #include "support/draws.h"
 
 namespace sonarsim::test {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "input/scene/scene.h"
 #include "simulate/sonar/sonar.h"
 #include "support/test.h"
 

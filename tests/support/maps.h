@@ -1,7 +1,6 @@
 #pragma once
 
 #include "input/scene/maps/ground_maps.h"
-#include "input/scene/scene.h"
 #include "support/test.h"
 
 namespace sonarsim::test {

@@ -1,6 +1,5 @@
 #include "support/shapes.h"
 
-#include "core/elementary.h"
 #include "simulate/visibility/view.h"
 #include "support/test.h"
 

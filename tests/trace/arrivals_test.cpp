@@ -28,8 +28,6 @@ void for_each_point(Visit visit) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("trace");
-
 // A piece's range is off by a relative error of 2^-24 each of a product, two fused sums and a root,
 // of which the first three are halved by the root: 2.5 in all. In double `exact` is off as well.
 TEST_CASE("arrivals: in still water they are the geometry, and those of pieces within rounding") {
@@ -58,5 +56,3 @@ TEST_CASE("arrivals: in still water they are the geometry, and those of pieces w
         REQUIRE(std::fabs(piece_range(p.x(), p.y(), p.z()) - exact) <= 5.0 * 0x1p-53 * exact);
     });
 }
-
-TEST_SUITE_END();

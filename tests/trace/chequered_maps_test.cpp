@@ -79,208 +79,202 @@ double factor_around(const FactorsOfBins& factors, const View& view, int bin, in
 
 }  // namespace
 
-TEST_SUITE("lay maps") {
-    TEST_CASE("the paper's images have the mean over every bin: a chequered map of 6 dB") {
-        // Fields of 1.4 m, 14 bins and more, and fields of 0.25 m.
-        for (const double field_m : {1.4, 0.25}) {
-            for (const bool side : {false, true}) {
-                const Sonar sonar =
-                    side ? sidescan(ModelKind::paper, 0.1) : imaging(ModelKind::paper);
-                const View& view = sonar.settings.view;
-                const Scene plain = wide_floor();
-                Scene scene = plain;
-                lay(scene, {}, chequered(field_m));
-                const Pose pose = above_floor();
-                const FactorsOfBins expected = factors_of_bins(sonar, scene, pose, side);
-                for (const EngineKind type : engine_types) {
-                    if (field_m < 1.0 && type != EngineKind::strips) continue;
-                    CAPTURE_ALL(field_m, side, static_cast<int>(type));
-                    const std::vector<float> image = expected_image(sonar, scene, type, pose);
-                    const std::vector<float> without = expected_image(sonar, plain, type, pose);
-                    double off = 0.0;
-                    double sum = 0.0;
-                    double worst_at_border = 0.0;
-                    double squares_at_border = 0.0;
-                    int at_border = 0;
-                    int count = 0;
-                    for (int i = 0; i < view.range_bins; ++i) {
-                        for (int j = 0; j < view.beams; ++j) {
-                            const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
-                            // Bins at the rim of the view hold few points.
-                            if (expected.weight[k] < 60.0 || without[k] == 0.0F) continue;
-                            const double found = static_cast<double>(image[k] / without[k]);
-                            off += std::fabs(found - expected.sum[k] / expected.weight[k]);
-                            sum += expected.sum[k] / expected.weight[k];
-                            ++count;
-                            if (expected.least[k] == expected.greatest[k]) continue;
-                            const double apart = db(found * expected.weight[k] / expected.sum[k]);
-                            worst_at_border = std::max(worst_at_border, std::fabs(apart));
-                            squares_at_border += apart * apart;
-                            ++at_border;
-                        }
-                    }
-                    CHECK(count > (side ? 150 : 2000));
-                    CHECK(off < (field_m > 1.0 ? 0.01 : 0.05) * sum);
-                    // A bin with a border has the mean over its area. Rays alone are off by more.
-                    CHECK(at_border >= 20);
-                    if (type == EngineKind::strips) {
-                        CHECK(squares_at_border < 0.1 * 0.1 * at_border);
-                        CHECK(worst_at_border < 0.6);
-                    }
-                }
-            }
-        }
-    }
-
-    TEST_CASE("a chequered map of 6 dB makes scatterers 6 dB stronger") {
-        // Scatterers and their phases are those of the scene without the map, so the powers of a
-        // field change by the factor, except for what its neighbours send into its side lobes.
+TEST_CASE("the paper's images have the mean over every bin: a chequered map of 6 dB") {
+    // Fields of 1.4 m, 14 bins and more, and fields of 0.25 m.
+    for (const double field_m : {1.4, 0.25}) {
         for (const bool side : {false, true}) {
-            SonarConfig config = side ? sidescan(ModelKind::calibrated).config
-                                      : imaging(ModelKind::calibrated).config;
-            config.instrument.speckle.mode = SpeckleMode::scene;
-            config.instrument.speckle.texture = 0.0;
-            const Sonar sonar = make_sonar(config, {0.01});
+            const Sonar sonar = side ? sidescan(ModelKind::paper, 0.1) : imaging(ModelKind::paper);
             const View& view = sonar.settings.view;
             const Scene plain = wide_floor();
             Scene scene = plain;
-            lay(scene, {}, chequered(2.8));
-            const Pose pose = above_floor(side ? 0.0 : 20.0);
-            const FactorsOfBins factors = factors_of_bins(sonar, scene, pose, side);
-            // The sums over the fields of either factor.
-            const auto sums_of = [&](const Scene& of) {
-                const std::vector<float> image = expected_image(sonar, of, EngineKind::rays, pose,
-                                                                {.multipath = false, .random = 1});
-                std::array<double, 2> sums{};
+            lay(scene, {}, chequered(field_m));
+            const Pose pose = above_floor();
+            const FactorsOfBins expected = factors_of_bins(sonar, scene, pose, side);
+            for (const EngineKind type : engine_types) {
+                if (field_m < 1.0 && type != EngineKind::strips) continue;
+                CAPTURE_ALL(field_m, side, static_cast<int>(type));
+                const std::vector<float> image = expected_image(sonar, scene, type, pose);
+                const std::vector<float> without = expected_image(sonar, plain, type, pose);
+                double off = 0.0;
+                double sum = 0.0;
+                double worst_at_border = 0.0;
+                double squares_at_border = 0.0;
+                int at_border = 0;
+                int count = 0;
                 for (int i = 0; i < view.range_bins; ++i) {
                     for (int j = 0; j < view.beams; ++j) {
-                        const double factor = factor_around(factors, view, i, j, 3, side ? 0 : 2);
                         const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
-                        if (factor > 0.0)
-                            sums[factor > 1.0 ? 1 : 0] += static_cast<double>(image[k]);
+                        // Bins at the rim of the view hold few points.
+                        if (expected.weight[k] < 60.0 || without[k] == 0.0F) continue;
+                        const double found = static_cast<double>(image[k] / without[k]);
+                        off += std::fabs(found - expected.sum[k] / expected.weight[k]);
+                        sum += expected.sum[k] / expected.weight[k];
+                        ++count;
+                        if (expected.least[k] == expected.greatest[k]) continue;
+                        const double apart = db(found * expected.weight[k] / expected.sum[k]);
+                        worst_at_border = std::max(worst_at_border, std::fabs(apart));
+                        squares_at_border += apart * apart;
+                        ++at_border;
                     }
                 }
-                return sums;
-            };
-            const std::array<double, 2> with = sums_of(scene);
-            const std::array<double, 2> without = sums_of(plain);
-            CAPTURE(side);
-            CHECK(std::fabs(db(with[0] / without[0])) < 0.2);
-            CHECK(std::fabs(db(with[1] / without[1] / six_db)) < 0.2);
-        }
-    }
-
-    TEST_CASE("fields smaller than a bin count by their area") {
-        const SmallFields fields;
-        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
-            for (const bool side : {false, true}) {
-                const Sonar sonar = side ? sidescan(model, 0.2) : imaging(model, 40);
-                const View& view = sonar.settings.view;
-                const auto seen = [&](const Scene& scene) {
-                    return expected_image(sonar, scene, EngineKind::strips, above_floor());
-                };
-                const std::vector<float> without = seen(fields.plain);
-                for (const Scene* const scene : {&fields.by_strength, &fields.by_material}) {
-                    CAPTURE_ALL(static_cast<int>(model), side, scene == &fields.by_strength);
-                    const std::vector<float> image = seen(*scene);
-                    double sum_db = 0.0;
-                    double worst = 0.0;
-                    int count = 0;
-                    // Without the rim of the view, whose bins are not full.
-                    const int rim = side ? 0 : 3;
-                    for (int i = 5; i < view.range_bins - 5; ++i) {
-                        for (int j = rim; j < view.beams - rim; ++j, ++count) {
-                            const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
-                            const double off = db(static_cast<double>(image[k] / without[k]));
-                            sum_db += off;
-                            worst = std::max(worst, std::fabs(off));
-                        }
-                    }
-                    CHECK(count > (side ? 60 : 700));
-                    CHECK(std::fabs(sum_db) < 0.05 * count);
-                    // A pulse sees less than a bin, and so fewer fields.
-                    CHECK(worst < (model == ModelKind::paper ? 0.2 : 0.5));
+                CHECK(count > (side ? 150 : 2000));
+                CHECK(off < (field_m > 1.0 ? 0.01 : 0.05) * sum);
+                // A bin with a border has the mean over its area. Rays alone are off by more.
+                CHECK(at_border >= 20);
+                if (type == EngineKind::strips) {
+                    CHECK(squares_at_border < 0.1 * 0.1 * at_border);
+                    CHECK(worst_at_border < 0.6);
                 }
             }
         }
     }
+}
 
-    TEST_CASE("the pieces of a sample tile it, and have its area") {
-        Scene scene = wide_floor();
-        const std::uint32_t other = add_material(scene, 0.4F);
-        lay(scene,
-            material_texels(square_frame(40, 28.0), {other},
-                            [](int row, int column) {
-                                return (row * column) % 3 == 0 ? std::uint16_t{0}
-                                                               : MaterialTexels::own;
-                            }),
-            {});
-        const Sonar sonar = imaging(ModelKind::paper);
-        const Pose pose = sensor_pose(sonar, above_floor(), 0);
-        for (const EngineKind type : engine_types) {
-            const auto engine = make_engine(scene, {.type = type, .octree = {}});
-            const Samples whole = engine->visible_surface(sonar.settings.view, pose);
-            Samples cut = whole;
-            apply_maps(*scene.maps, sonar.settings.view, pose, cut);
-            CHECK(cut.items.size() > whole.items.size());
-            const auto area = [](std::span<const Sample> samples) {
-                double sum = 0.0;
-                for (const Sample& sample : samples)
-                    sum += static_cast<double>(sample.area_m2);
-                return sum;
-            };
-            for (int j = 0; j < sonar.settings.view.beams; ++j) {
-                CHECK(std::fabs(area(cut.beam(j)) - area(whole.beam(j))) <
-                      1e-4 * area(whole.beam(j)));
-            }
-        }
-    }
-
-    TEST_CASE("a second surface has the strength of its texel") {
-        // A wall ahead, whose echo over the floor doubles where the floor is twice as strong.
-        Scene scene = wide_floor();
-        add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 4}, {8, -9, 4}, 0, 4);
-        Scene twice = scene;
-        lay(twice, {}, strengths(square_frame(1, 28.0), [](int, int) { return 2.0F; }));
-        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
-            SonarConfig config = small_imaging();
-            if (model == ModelKind::calibrated) config = bare_sonar(config, 900e3);
-            config.multipath.method = MultipathMethod::cluster;
-            const Sonar sonar = noise_free(config);
-            const auto bounced = [&](const Scene& of) {
-                const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
-                return expected_image(sonar, of, EngineKind::rays, pose, multipath_alone);
-            };
-            const std::vector<float> once = bounced(scene);
-            const std::vector<float> both = bounced(twice);
-            // One instance has floor and wall: both mirrors are twice as strong.
-            int count = 0;
-            for (std::size_t k = 0; k < once.size(); ++k) {
-                if (once[k] == 0.0F) continue;
-                CHECK(both[k] / once[k] == test::approx(4.0).epsilon(0.01));
-                ++count;
-            }
-            CHECK(count > 20);
-        }
-    }
-
-    TEST_CASE("speckle keeps the mean power of fields smaller than a scatterer's cell") {
-        // All images have the same scatterers, so that their sums, over more than 1,000 cells a
-        // ping, differ by less than speckle does.
-        const SmallFields fields;
-        SonarConfig config = imaging(ModelKind::calibrated).config;
+TEST_CASE("a chequered map of 6 dB makes scatterers 6 dB stronger") {
+    // Scatterers and their phases are those of the scene without the map, so the powers of a
+    // field change by the factor, except for what its neighbours send into its side lobes.
+    for (const bool side : {false, true}) {
+        SonarConfig config =
+            side ? sidescan(ModelKind::calibrated).config : imaging(ModelKind::calibrated).config;
         config.instrument.speckle.mode = SpeckleMode::scene;
+        config.instrument.speckle.texture = 0.0;
         const Sonar sonar = make_sonar(config, {0.01});
-        const auto sum_of = [&](const Scene& scene) {
-            double sum = 0.0;
-            for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
-                sum += total(expected_image(sonar, scene, EngineKind::strips, above_floor(yaw_deg),
-                                            {.multipath = false}));
+        const View& view = sonar.settings.view;
+        const Scene plain = wide_floor();
+        Scene scene = plain;
+        lay(scene, {}, chequered(2.8));
+        const Pose pose = above_floor(side ? 0.0 : 20.0);
+        const FactorsOfBins factors = factors_of_bins(sonar, scene, pose, side);
+        // The sums over the fields of either factor.
+        const auto sums_of = [&](const Scene& of) {
+            const std::vector<float> image = expected_image(sonar, of, EngineKind::rays, pose,
+                                                            {.multipath = false, .random = 1});
+            std::array<double, 2> sums{};
+            for (int i = 0; i < view.range_bins; ++i) {
+                for (int j = 0; j < view.beams; ++j) {
+                    const double factor = factor_around(factors, view, i, j, 3, side ? 0 : 2);
+                    const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                    if (factor > 0.0) sums[factor > 1.0 ? 1 : 0] += static_cast<double>(image[k]);
+                }
             }
+            return sums;
+        };
+        const std::array<double, 2> with = sums_of(scene);
+        const std::array<double, 2> without = sums_of(plain);
+        CAPTURE(side);
+        CHECK(std::fabs(db(with[0] / without[0])) < 0.2);
+        CHECK(std::fabs(db(with[1] / without[1] / six_db)) < 0.2);
+    }
+}
+
+TEST_CASE("fields smaller than a bin count by their area") {
+    const SmallFields fields;
+    for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+        for (const bool side : {false, true}) {
+            const Sonar sonar = side ? sidescan(model, 0.2) : imaging(model, 40);
+            const View& view = sonar.settings.view;
+            const auto seen = [&](const Scene& scene) {
+                return expected_image(sonar, scene, EngineKind::strips, above_floor());
+            };
+            const std::vector<float> without = seen(fields.plain);
+            for (const Scene* const scene : {&fields.by_strength, &fields.by_material}) {
+                CAPTURE_ALL(static_cast<int>(model), side, scene == &fields.by_strength);
+                const std::vector<float> image = seen(*scene);
+                double sum_db = 0.0;
+                double worst = 0.0;
+                int count = 0;
+                // Without the rim of the view, whose bins are not full.
+                const int rim = side ? 0 : 3;
+                for (int i = 5; i < view.range_bins - 5; ++i) {
+                    for (int j = rim; j < view.beams - rim; ++j, ++count) {
+                        const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                        const double off = db(static_cast<double>(image[k] / without[k]));
+                        sum_db += off;
+                        worst = std::max(worst, std::fabs(off));
+                    }
+                }
+                CHECK(count > (side ? 60 : 700));
+                CHECK(std::fabs(sum_db) < 0.05 * count);
+                // A pulse sees less than a bin, and so fewer fields.
+                CHECK(worst < (model == ModelKind::paper ? 0.2 : 0.5));
+            }
+        }
+    }
+}
+
+TEST_CASE("the pieces of a sample tile it, and have its area") {
+    Scene scene = wide_floor();
+    const std::uint32_t other = add_material(scene, 0.4F);
+    lay(scene,
+        material_texels(square_frame(40, 28.0), {other},
+                        [](int row, int column) {
+                            return (row * column) % 3 == 0 ? std::uint16_t{0} : MaterialTexels::own;
+                        }),
+        {});
+    const Sonar sonar = imaging(ModelKind::paper);
+    const Pose pose = sensor_pose(sonar, above_floor(), 0);
+    for (const EngineKind type : engine_types) {
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const Samples whole = engine->visible_surface(sonar.settings.view, pose);
+        Samples cut = whole;
+        apply_maps(*scene.maps, sonar.settings.view, pose, cut);
+        CHECK(cut.items.size() > whole.items.size());
+        const auto area = [](std::span<const Sample> samples) {
+            double sum = 0.0;
+            for (const Sample& sample : samples)
+                sum += static_cast<double>(sample.area_m2);
             return sum;
         };
-        const double expected = sum_of(fields.plain);
-        CHECK(std::fabs(db(sum_of(fields.by_material) / expected)) < 0.15);
-        CHECK(std::fabs(db(sum_of(fields.by_strength) / expected)) < 0.15);
+        for (int j = 0; j < sonar.settings.view.beams; ++j) {
+            CHECK(std::fabs(area(cut.beam(j)) - area(whole.beam(j))) < 1e-4 * area(whole.beam(j)));
+        }
     }
+}
+
+TEST_CASE("a second surface has the strength of its texel") {
+    // A wall ahead, whose echo over the floor doubles where the floor is twice as strong.
+    Scene scene = wide_floor();
+    add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 4}, {8, -9, 4}, 0, 4);
+    Scene twice = scene;
+    lay(twice, {}, strengths(square_frame(1, 28.0), [](int, int) { return 2.0F; }));
+    for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
+        SonarConfig config = small_imaging();
+        if (model == ModelKind::calibrated) config = bare_sonar(config, 900e3);
+        config.multipath.method = MultipathMethod::cluster;
+        const Sonar sonar = noise_free(config);
+        const auto bounced = [&](const Scene& of) {
+            const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
+            return expected_image(sonar, of, EngineKind::rays, pose, multipath_alone);
+        };
+        const std::vector<float> once = bounced(scene);
+        const std::vector<float> both = bounced(twice);
+        // One instance has floor and wall: both mirrors are twice as strong.
+        int count = 0;
+        for (std::size_t k = 0; k < once.size(); ++k) {
+            if (once[k] == 0.0F) continue;
+            CHECK(both[k] / once[k] == test::approx(4.0).epsilon(0.01));
+            ++count;
+        }
+        CHECK(count > 20);
+    }
+}
+
+TEST_CASE("speckle keeps the mean power of fields smaller than a scatterer's cell") {
+    // All images have the same scatterers, so that their sums, over more than 1,000 cells a
+    // ping, differ by less than speckle does.
+    const SmallFields fields;
+    SonarConfig config = imaging(ModelKind::calibrated).config;
+    config.instrument.speckle.mode = SpeckleMode::scene;
+    const Sonar sonar = make_sonar(config, {0.01});
+    const auto sum_of = [&](const Scene& scene) {
+        double sum = 0.0;
+        for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
+            sum += total(expected_image(sonar, scene, EngineKind::strips, above_floor(yaw_deg),
+                                        {.multipath = false}));
+        }
+        return sum;
+    };
+    const double expected = sum_of(fields.plain);
+    CHECK(std::fabs(db(sum_of(fields.by_material) / expected)) < 0.15);
+    CHECK(std::fabs(db(sum_of(fields.by_strength) / expected)) < 0.15);
 }

@@ -1,7 +1,5 @@
 #include "simulate/trace/clusters.h"
 
-#include "simulate/trace/multipath.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/patches.h"
 #include "support/sonars.h"
@@ -35,8 +33,6 @@ Scene corner() {
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("clusters keep their limits, and every sample is in one") {
     const View view = fan(60.0, 12.0);
@@ -197,5 +193,3 @@ TEST_CASE("rounding hides nothing, wherever the sonar is and however large the t
         }
     }
 }
-
-TEST_SUITE_END();

@@ -38,8 +38,6 @@ std::string rows_of(const std::array<Statistic<Struct, Number>, n>& table) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("the tables name every counter and every timer once") {
     check_complete(multipath_counters, sizeof(MultipathCounts));
     check_complete(ping_counters, sizeof(PingCounts) - sizeof(MultipathCounts));
@@ -54,5 +52,3 @@ TEST_CASE("the model page says what is counted and timed") {
         CHECK(page.find(rows) != std::string::npos);
     }
 }
-
-TEST_SUITE_END();

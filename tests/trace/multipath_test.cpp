@@ -2,7 +2,6 @@
 
 #include "simulate/paper/multipath_echoes.h"
 #include "simulate/sonar/sonar.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/patches.h"
 
@@ -57,8 +56,6 @@ void check_against(const Found& found, const View& view,
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("multipath between two perpendicular walls") {
     // Walls y = a and x = b. Mirrored in the first, the sonar is at s = (0, 2a, 0); the line from
@@ -160,5 +157,3 @@ TEST_CASE("a footprint wider than a beam lights all beams that it covers, over a
         CHECK(weight == test::approx(2.0));
     }
 }
-
-TEST_SUITE_END();

@@ -16,76 +16,74 @@ PingMotion moving(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) 
 
 }  // namespace
 
-TEST_SUITE("trace") {
-    TEST_CASE("ping motion: past a point, sideways") {
-        // (c t - d)^2 = d^2 + (v t)^2, so t = 2 c d / (c^2 - v^2), and the point is then v t to the
-        // other side. A side-scan sonar has moved half as far between the two patterns.
-        const double time = 2.0 * 1500.0 * 60.0 / (1500.0 * 1500.0 - 25.0);
-        const PingMotion sideways = moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
-        for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard}) {
-            const Eigen::Vector3d past = measured_place(sideways, shape, {60.0, 0.0, 0.0});
-            CHECK(past.norm() == test::approx(750.0 * time).epsilon(1e-12));
-            const double moved_m = (shape == ViewShape::fan ? 5.0 : 2.5) * time;
-            CHECK(std::atan2(past.y(), past.x()) ==
-                  test::approx(-std::atan(moved_m / 60.0)).epsilon(1e-9));
+TEST_CASE("ping motion: past a point, sideways") {
+    // (c t - d)^2 = d^2 + (v t)^2, so t = 2 c d / (c^2 - v^2), and the point is then v t to the
+    // other side. A side-scan sonar has moved half as far between the two patterns.
+    const double time = 2.0 * 1500.0 * 60.0 / (1500.0 * 1500.0 - 25.0);
+    const PingMotion sideways = moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard}) {
+        const Eigen::Vector3d past = measured_place(sideways, shape, {60.0, 0.0, 0.0});
+        CHECK(past.norm() == test::approx(750.0 * time).epsilon(1e-12));
+        const double moved_m = (shape == ViewShape::fan ? 5.0 : 2.5) * time;
+        CHECK(std::atan2(past.y(), past.x()) ==
+              test::approx(-std::atan(moved_m / 60.0)).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("ping motion: any motion, by a search for the time of reception; and its inverse") {
+    Draws draws(3);
+    const auto vector = [&](float size) -> Eigen::Vector3d {
+        return (size * draws.in_ball()).cast<double>();
+    };
+    for (int k = 0; k < 50; ++k) {
+        const PingMotion motion = moving(vector(10.0F), vector(0.5F));
+        const Eigen::Vector3d place = vector(100.0F);
+        double low = 0.0;
+        double high = 1.0;
+        for (int i = 0; i < 60; ++i) {
+            const double t = 0.5 * (low + high);
+            const bool early =
+                sound_m_s * t < place.norm() + (place - t * motion.velocity_m_s).norm();
+            (early ? low : high) = t;
+        }
+        const Eigen::AngleAxisd turned(low * motion.turn_rad_s.norm(),
+                                       motion.turn_rad_s.normalized());
+        const Eigen::Vector3d direction =
+            (turned.inverse() * (place - low * motion.velocity_m_s)).normalized();
+        const Eigen::Vector3d measured = measured_place(motion, ViewShape::fan, place);
+        CHECK((measured - 0.5 * sound_m_s * low * direction).norm() < 1e-9);
+        for (const ViewShape shape : {ViewShape::fan, ViewShape::cone}) {
+            const Eigen::Vector3d seen = measured_place(motion, shape, place);
+            CHECK((unmoved_place(motion, shape, seen) - place).norm() < 1e-8);
         }
     }
+}
 
-    TEST_CASE("ping motion: any motion, by a search for the time of reception; and its inverse") {
-        Draws draws(3);
-        const auto vector = [&](float size) -> Eigen::Vector3d {
-            return (size * draws.in_ball()).cast<double>();
-        };
-        for (int k = 0; k < 50; ++k) {
-            const PingMotion motion = moving(vector(10.0F), vector(0.5F));
-            const Eigen::Vector3d place = vector(100.0F);
-            double low = 0.0;
-            double high = 1.0;
-            for (int i = 0; i < 60; ++i) {
-                const double t = 0.5 * (low + high);
-                const bool early =
-                    sound_m_s * t < place.norm() + (place - t * motion.velocity_m_s).norm();
-                (early ? low : high) = t;
-            }
-            const Eigen::AngleAxisd turned(low * motion.turn_rad_s.norm(),
-                                           motion.turn_rad_s.normalized());
-            const Eigen::Vector3d direction =
-                (turned.inverse() * (place - low * motion.velocity_m_s)).normalized();
-            const Eigen::Vector3d measured = measured_place(motion, ViewShape::fan, place);
-            CHECK((measured - 0.5 * sound_m_s * low * direction).norm() < 1e-9);
-            for (const ViewShape shape : {ViewShape::fan, ViewShape::cone}) {
-                const Eigen::Vector3d seen = measured_place(motion, shape, place);
-                CHECK((unmoved_place(motion, shape, seen) - place).norm() < 1e-8);
-            }
-        }
+TEST_CASE("ping motion: surface goes to the beam that receives it") {
+    // Ten beams of 6 degrees; a turn of 6 degrees in the two-way time of 75 m, a tenth of a
+    // second.
+    const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
+    Samples samples;
+    samples.beam_begin = {0};
+    for (int j = 0; j < 10; ++j) {
+        const double azimuth = radians(-27.0 + 6.0 * j);
+        const Eigen::Vector3f ahead =
+            Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>();
+        samples.items.push_back(
+            patch_of(75.0F * ahead, -ahead, {0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.1F}));
+        samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
     }
-
-    TEST_CASE("ping motion: surface goes to the beam that receives it") {
-        // Ten beams of 6 degrees; a turn of 6 degrees in the two-way time of 75 m, a tenth of a
-        // second.
-        const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
-        Samples samples;
-        samples.beam_begin = {0};
-        for (int j = 0; j < 10; ++j) {
-            const double azimuth = radians(-27.0 + 6.0 * j);
-            const Eigen::Vector3f ahead =
-                Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>();
-            samples.items.push_back(
-                patch_of(75.0F * ahead, -ahead, {0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.1F}));
-            samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
-        }
-        const Samples before = samples;
-        move_in_ping({}, view, samples);
-        CHECK(samples.items[3].position == before.items[3].position);
-        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples);
-        REQUIRE(samples.in_no_beam().size() == 1);
-        CHECK(samples.beam(9).empty());
-        for (int j = 0; j < 9; ++j) {
-            REQUIRE(samples.beam(j).size() == 1);
-            const Sample& sample = samples.beam(j)[0];
-            CHECK((sample.position - before.items[j].position).norm() < 1e-3F);
-            CHECK(sample.height_m == test::approx(75.0F).epsilon(1e-5));
-            CHECK(sample.normal.dot(sample.position) == test::approx(-75.0F).epsilon(1e-4));
-        }
+    const Samples before = samples;
+    move_in_ping({}, view, samples);
+    CHECK(samples.items[3].position == before.items[3].position);
+    move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples);
+    REQUIRE(samples.in_no_beam().size() == 1);
+    CHECK(samples.beam(9).empty());
+    for (int j = 0; j < 9; ++j) {
+        REQUIRE(samples.beam(j).size() == 1);
+        const Sample& sample = samples.beam(j)[0];
+        CHECK((sample.position - before.items[j].position).norm() < 1e-3F);
+        CHECK(sample.height_m == test::approx(75.0F).epsilon(1e-5));
+        CHECK(sample.normal.dot(sample.position) == test::approx(-75.0F).epsilon(1e-4));
     }
 }

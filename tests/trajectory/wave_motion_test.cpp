@@ -19,58 +19,55 @@ PhiloxKey wave_key(std::uint32_t seed) {
 
 }  // namespace
 
-TEST_SUITE("wave motion") {
-    TEST_CASE("Heave has the variance and the autocorrelation of the spectrum" *
-              doctest::skip(test::sanitized)) {
-        // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
-        // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
-        constexpr int seeds = 4000;
-        constexpr double deviation = 0.3;
-        constexpr double period_s = 8.0;
-        constexpr double lag_s = 3.0;
-        MotionConfig motion{.period_s = period_s};
-        motion.position_m[2] = deviation;
-        double variance = 0.0;
-        double product = 0.0;
-        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            Trajectory poses = poses_on_the_spot({10.0, 21.0, 21.0 + lag_s});
-            add_wave_motion(motion, wave_key(seed), poses);
-            const double a = poses[1].T_world_vehicle.translation.z() - 3.0;
-            const double b = poses[2].T_world_vehicle.translation.z() - 3.0;
-            variance += a * a / seeds;
-            product += a * b / seeds;
-        }
-        double correlation = 0.0;
-        constexpr int steps = 100000;
-        for (int k = 0; k < steps; ++k) {
-            const double share = (k + 0.5) / steps;
-            correlation +=
-                std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) /
-                steps;
-        }
-        // Products of two normal numbers have a variance of at most 2 s^4.
-        const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
-        CHECK(std::fabs(variance - deviation * deviation) < four_errors);
-        CHECK(std::fabs(product - correlation * deviation * deviation) < four_errors);
-        CHECK(correlation < -0.2);
+TEST_CASE("Heave has the variance and the autocorrelation of the spectrum" *
+          doctest::skip(test::sanitized)) {
+    // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
+    // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
+    constexpr int seeds = 4000;
+    constexpr double deviation = 0.3;
+    constexpr double period_s = 8.0;
+    constexpr double lag_s = 3.0;
+    MotionConfig motion{.period_s = period_s};
+    motion.position_m[2] = deviation;
+    double variance = 0.0;
+    double product = 0.0;
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        Trajectory poses = poses_on_the_spot({10.0, 21.0, 21.0 + lag_s});
+        add_wave_motion(motion, wave_key(seed), poses);
+        const double a = poses[1].T_world_vehicle.translation.z() - 3.0;
+        const double b = poses[2].T_world_vehicle.translation.z() - 3.0;
+        variance += a * a / seeds;
+        product += a * b / seeds;
     }
+    double correlation = 0.0;
+    constexpr int steps = 100000;
+    for (int k = 0; k < steps; ++k) {
+        const double share = (k + 0.5) / steps;
+        correlation +=
+            std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) / steps;
+    }
+    // Products of two normal numbers have a variance of at most 2 s^4.
+    const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
+    CHECK(std::fabs(variance - deviation * deviation) < four_errors);
+    CHECK(std::fabs(product - correlation * deviation * deviation) < four_errors);
+    CHECK(correlation < -0.2);
+}
 
-    TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
-        MotionConfig motion;
-        motion.position_m[0] = 0.5;  // surge
-        motion.turn_deg[0] = 6.0;    // roll
-        Trajectory poses = poses_on_the_spot({0.0, 1.0, 2.0});
-        add_wave_motion(motion, wave_key(7), poses);
-        for (const TimedPose& pose : poses) {
-            // It heads along y.
-            CHECK(pose.T_world_vehicle.translation.x() == test::approx(1.0));
-            CHECK(std::fabs(pose.T_world_vehicle.translation.y() - 2.0) > 1e-3);
-            CHECK(pose.T_world_vehicle.translation.z() == test::approx(3.0));
-            const Rpy rpy = rpy_from_rotation(pose.T_world_vehicle.rotation);
-            CHECK(std::fabs(rpy.roll) > 1e-4);
-            CHECK(rpy.pitch == test::approx(0.0));
-            CHECK(rpy.yaw == test::approx(0.5 * pi));
-        }
+TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
+    MotionConfig motion;
+    motion.position_m[0] = 0.5;  // surge
+    motion.turn_deg[0] = 6.0;    // roll
+    Trajectory poses = poses_on_the_spot({0.0, 1.0, 2.0});
+    add_wave_motion(motion, wave_key(7), poses);
+    for (const TimedPose& pose : poses) {
+        // It heads along y.
+        CHECK(pose.T_world_vehicle.translation.x() == test::approx(1.0));
+        CHECK(std::fabs(pose.T_world_vehicle.translation.y() - 2.0) > 1e-3);
+        CHECK(pose.T_world_vehicle.translation.z() == test::approx(3.0));
+        const Rpy rpy = rpy_from_rotation(pose.T_world_vehicle.rotation);
+        CHECK(std::fabs(rpy.roll) > 1e-4);
+        CHECK(rpy.pitch == test::approx(0.0));
+        CHECK(rpy.yaw == test::approx(0.5 * pi));
     }
 }
 

@@ -22,8 +22,6 @@ bool same(const Samples& a, const Samples& b) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("auto engine");
-
 TEST_CASE("auto takes strips; multipath starts from rays") {
     const Scene scene = test::tank();
     const View view = auto_view();
@@ -76,5 +74,3 @@ TEST_CASE("engine: the octree and the strips refuse copies, bodies and profiles 
         }
     }
 }
-
-TEST_SUITE_END();

@@ -49,112 +49,109 @@ const Pose bent_pose{rotation_from_rpy(0.0, radians(25.0), 0.0), {0.0, 0.0, 0.0}
 
 }  // namespace
 
-TEST_SUITE("visibility") {
-    TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
-        // The apparent range is 1480 m/s times the time; the true incidence has the cosine -sin b.
-        const Scene scene = floor_under(bent_gradient);
+TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
+    // The apparent range is 1480 m/s times the time; the true incidence has the cosine -sin b.
+    const Scene scene = floor_under(bent_gradient);
+    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const View view = bent_view();
+    const Samples samples = engine->visible_surface(view, bent_pose);
+    double area = 0.0;
+    REQUIRE(samples.items.size() > 1000);
+    for (const Sample& sample : samples.items) {
+        const Eigen::Vector3d p = sample.position.cast<double>();
+        const double range = p.norm();
+        const Arc arc(std::asin((bent_pose.rotation * (p / range)).z()));
+        CHECK(range == test::approx(1480.0 * arc.time_s()).epsilon(2e-4));
+        CHECK(std::fabs(static_cast<double>(sample.height_m) / range + std::sin(arc.b)) < 2e-3);
+        CHECK(static_cast<double>(-sample.normal.dot(sample.position)) / range ==
+              test::approx(-std::sin(arc.b)).epsilon(5e-3));
+        // Sound that spreads over W X / cos(a) for each solid angle, with W = dX / da sin(b),
+        // has the power of range^2 by that, both ways.
+        const double across = std::fabs(arc.slope() * std::sin(arc.b));
+        const double share = range * range * std::cos(arc.a) / (across * arc.distance_m());
+        CHECK(static_cast<double>(sample.strength) == test::approx(share * share).epsilon(2e-3));
+        area += static_cast<double>(sample.area_m2);
+    }
+    // dA = X dX dazimuth, and dOmega = cos(a) da dazimuth, over the view.
+    double true_area = 0.0;
+    constexpr int n = 400;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const double azimuth = ((i + 0.5) / n - 0.5) * view.azimuth_rad;
+            const double elevation = ((j + 0.5) / n - 0.5) * view.elevation_rad;
+            const Eigen::Vector3d d =
+                bent_pose.rotation * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                                     std::cos(elevation) * std::sin(azimuth),
+                                                     std::sin(elevation));
+            const Arc arc(std::asin(d.z()));
+            true_area += arc.distance_m() * std::fabs(arc.slope()) / std::cos(arc.a) *
+                         std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
+        }
+    }
+    CHECK(area == test::approx(true_area).epsilon(0.01));
+}
+
+TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
+    Scene scene = floor_under(0.0);
+    const auto bent = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    Scene still = scene;
+    still.sound_profile = nullptr;
+    const auto straight = make_engine(still, {.type = EngineKind::rays, .octree = {}});
+    View view = bent_view();
+    const Samples with = bent->visible_surface(view, bent_pose);
+    view.range_max_m *= 1500.0 / 1480.0;
+    const Samples without = straight->visible_surface(view, bent_pose);
+    // Every true place lies on the bottom, and the areas are about as large.
+    double area = 0.0;
+    for (const Sample& sample : with.items) {
+        const Eigen::Vector3d p = bent_pose.rotation * sample.position.cast<double>();
+        CHECK(1500.0 / 1480.0 * p.z() == test::approx(bent_bottom_m).epsilon(1e-4));
+        CHECK(sample.strength == test::approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
+        area += static_cast<double>(sample.area_m2);
+    }
+    double straight_area = 0.0;
+    for (const Sample& sample : without.items)
+        straight_area += static_cast<double>(sample.area_m2);
+    // The area of a patch follows from its middle, and both have patches of their own.
+    CHECK(area == test::approx(straight_area).epsilon(0.01));
+}
+
+TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line") {
+    // Speed that falls with depth bends sound down: half way to a point 100 m ahead the arc
+    // passes 0.25 m above the line to it, and over a sill that is 0.1 m above the line.
+    for (const double gradient : {bent_gradient, -bent_gradient}) {
+        Scene scene = floor_under(gradient);
+        const std::uint32_t material = test::add_material(scene, 0.5F);
+        test::add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
+                       {50.0F, -5.0F, -19.9F}, material);
         const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-        const View view = bent_view();
-        const Samples samples = engine->visible_surface(view, bent_pose);
-        double area = 0.0;
-        REQUIRE(samples.items.size() > 1000);
+        const Samples samples = engine->visible_surface(bent_view(), bent_pose);
+        bool is_seen = false;
         for (const Sample& sample : samples.items) {
-            const Eigen::Vector3d p = sample.position.cast<double>();
-            const double range = p.norm();
-            const Arc arc(std::asin((bent_pose.rotation * (p / range)).z()));
-            CHECK(range == test::approx(1480.0 * arc.time_s()).epsilon(2e-4));
-            CHECK(std::fabs(static_cast<double>(sample.height_m) / range + std::sin(arc.b)) < 2e-3);
-            CHECK(static_cast<double>(-sample.normal.dot(sample.position)) / range ==
-                  test::approx(-std::sin(arc.b)).epsilon(5e-3));
-            // Sound that spreads over W X / cos(a) for each solid angle, with W = dX / da sin(b),
-            // has the power of range^2 by that, both ways.
-            const double across = std::fabs(arc.slope() * std::sin(arc.b));
-            const double share = range * range * std::cos(arc.a) / (across * arc.distance_m());
-            CHECK(static_cast<double>(sample.strength) ==
-                  test::approx(share * share).epsilon(2e-3));
-            area += static_cast<double>(sample.area_m2);
+            const Eigen::Vector3d place =
+                place_of(*scene.sound_profile, Eigen::Vector3d::Zero(),
+                         bent_pose.rotation * sample.position.cast<double>().normalized(),
+                         static_cast<double>(sample.position.norm()));
+            is_seen |= std::fabs(place.z() - bent_bottom_m) < 0.1 &&
+                       std::fabs(place.x() - 100.0) < 0.5 && std::fabs(place.y()) < 1.0;
         }
-        // dA = X dX dazimuth, and dOmega = cos(a) da dazimuth, over the view.
-        double true_area = 0.0;
-        constexpr int n = 400;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < n; ++j) {
-                const double azimuth = ((i + 0.5) / n - 0.5) * view.azimuth_rad;
-                const double elevation = ((j + 0.5) / n - 0.5) * view.elevation_rad;
-                const Eigen::Vector3d d =
-                    bent_pose.rotation * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                                         std::cos(elevation) * std::sin(azimuth),
-                                                         std::sin(elevation));
-                const Arc arc(std::asin(d.z()));
-                true_area += arc.distance_m() * std::fabs(arc.slope()) / std::cos(arc.a) *
-                             std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
-            }
-        }
-        CHECK(area == test::approx(true_area).epsilon(0.01));
+        CHECK(is_seen == (gradient > 0.0));
     }
+}
 
-    TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
-        Scene scene = floor_under(0.0);
-        const auto bent = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-        Scene still = scene;
-        still.sound_profile = nullptr;
-        const auto straight = make_engine(still, {.type = EngineKind::rays, .octree = {}});
-        View view = bent_view();
-        const Samples with = bent->visible_surface(view, bent_pose);
-        view.range_max_m *= 1500.0 / 1480.0;
-        const Samples without = straight->visible_surface(view, bent_pose);
-        // Every true place lies on the bottom, and the areas are about as large.
-        double area = 0.0;
-        for (const Sample& sample : with.items) {
-            const Eigen::Vector3d p = bent_pose.rotation * sample.position.cast<double>();
-            CHECK(1500.0 / 1480.0 * p.z() == test::approx(bent_bottom_m).epsilon(1e-4));
-            CHECK(sample.strength == test::approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
-            area += static_cast<double>(sample.area_m2);
-        }
-        double straight_area = 0.0;
-        for (const Sample& sample : without.items)
-            straight_area += static_cast<double>(sample.area_m2);
-        // The area of a patch follows from its middle, and both have patches of their own.
-        CHECK(area == test::approx(straight_area).epsilon(0.01));
-    }
-
-    TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line") {
-        // Speed that falls with depth bends sound down: half way to a point 100 m ahead the arc
-        // passes 0.25 m above the line to it, and over a sill that is 0.1 m above the line.
-        for (const double gradient : {bent_gradient, -bent_gradient}) {
-            Scene scene = floor_under(gradient);
-            const std::uint32_t material = test::add_material(scene, 0.5F);
-            test::add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F},
-                           {50.0F, 5.0F, -19.9F}, {50.0F, -5.0F, -19.9F}, material);
-            const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-            const Samples samples = engine->visible_surface(bent_view(), bent_pose);
-            bool is_seen = false;
-            for (const Sample& sample : samples.items) {
-                const Eigen::Vector3d place =
-                    place_of(*scene.sound_profile, Eigen::Vector3d::Zero(),
-                             bent_pose.rotation * sample.position.cast<double>().normalized(),
-                             static_cast<double>(sample.position.norm()));
-                is_seen |= std::fabs(place.z() - bent_bottom_m) < 0.1 &&
-                           std::fabs(place.x() - 100.0) < 0.5 && std::fabs(place.y()) < 1.0;
-            }
-            CHECK(is_seen == (gradient > 0.0));
-        }
-    }
-
-    TEST_CASE("bent rays: a sight line goes on behind what it met") {
-        const Scene scene = floor_under(bent_gradient);
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-        const Eigen::Vector3f direction = Eigen::Vector3f::UnitX();
-        Ray ray{Eigen::Vector3f::Zero(), direction};
-        Intersection first{};
-        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&first, 1});
-        REQUIRE(std::isfinite(first.distance_m));
-        ray.origin = 30.0F * direction;
-        Intersection later{};
-        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
-        CHECK(later.distance_m + 30.0F == test::approx(first.distance_m).epsilon(1e-5));
-        ray.origin = 1.001F * first.distance_m * direction;
-        engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
-        CHECK(!std::isfinite(later.distance_m));
-    }
+TEST_CASE("bent rays: a sight line goes on behind what it met") {
+    const Scene scene = floor_under(bent_gradient);
+    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const Eigen::Vector3f direction = Eigen::Vector3f::UnitX();
+    Ray ray{Eigen::Vector3f::Zero(), direction};
+    Intersection first{};
+    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&first, 1});
+    REQUIRE(std::isfinite(first.distance_m));
+    ray.origin = 30.0F * direction;
+    Intersection later{};
+    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
+    CHECK(later.distance_m + 30.0F == test::approx(first.distance_m).epsilon(1e-5));
+    ray.origin = 1.001F * first.distance_m * direction;
+    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
+    CHECK(!std::isfinite(later.distance_m));
 }

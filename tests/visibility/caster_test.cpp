@@ -1,7 +1,6 @@
 #include "simulate/visibility/caster.h"
 
 #include "support/draws.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -46,98 +45,95 @@ int met_below(const Caster& caster, std::uint32_t count, int rays) {
 
 }  // namespace
 
-TEST_SUITE("visibility") {
-    // Embree took the sign of such a component for its octant, but divided by +1e-18: rays of its
-    // packet passed through the scene.
-    TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
+// Embree took the sign of such a component for its octant, but divided by +1e-18: rays of its
+// packet passed through the scene.
+TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
+    Scene scene = empty_scene();
+    add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);
+    const Caster caster(scene);
+    for (const float tiny : {-4.84e-19F, -1e-30F, -0.0F, 4.84e-19F, -1e-17F}) {
+        std::vector<Eigen::Vector3f> directions{{tiny, -0.002F, -1}};
+        for (int k = 1; k < 8; ++k)
+            directions.emplace_back(-0.01F * static_cast<float>(k), -0.002F, -1);
+        for (Eigen::Vector3f& direction : directions)
+            direction.normalize();
+        std::vector<std::uint32_t> facets(directions.size());
+        caster.cast(Eigen::Vector3f::Zero(), directions, 100.0F, facets);
+        CAPTURE(tiny);
+        for (const std::uint32_t facet : facets)
+            CHECK(facet != Caster::nothing);
+    }
+}
+
+TEST_CASE("caster: scenes with the same first file share its tree and have their own hits") {
+    const auto scene_with = [](float x) {
         Scene scene = empty_scene();
-        add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);
-        const Caster caster(scene);
-        for (const float tiny : {-4.84e-19F, -1e-30F, -0.0F, 4.84e-19F, -1e-17F}) {
-            std::vector<Eigen::Vector3f> directions{{tiny, -0.002F, -1}};
-            for (int k = 1; k < 8; ++k)
-                directions.emplace_back(-0.01F * static_cast<float>(k), -0.002F, -1);
-            for (Eigen::Vector3f& direction : directions)
-                direction.normalize();
-            std::vector<std::uint32_t> facets(directions.size());
-            caster.cast(Eigen::Vector3f::Zero(), directions, 100.0F, facets);
-            CAPTURE(tiny);
-            for (const std::uint32_t facet : facets)
-                CHECK(facet != Caster::nothing);
-        }
+        const std::uint32_t material = add_material(scene, 1.0F);
+        add_sphere(scene, {0, 0, -8}, 1.0F, material, 256);
+        scene.first_file_triangles = scene.triangles.size();
+        scene.first_file_vertices = scene.vertices.size();
+        add_sphere(scene, {x, 0, -7}, 0.5F, material, 64);
+        return scene;
+    };
+    std::vector<Eigen::Vector3f> directions;
+    for (int k = -100; k <= 100; ++k)
+        directions.push_back(Eigen::Vector3f(0.003F * static_cast<float>(k), 0.01F, -1));
+    const auto hits = [&](const Caster& caster) {
+        std::vector<std::uint32_t> facets(directions.size());
+        caster.cast(Eigen::Vector3f::Zero(), directions, 100.0F, facets);
+        std::vector<float> heights;
+        for (const std::uint32_t facet : facets)
+            heights.push_back(facet == Caster::nothing ? 0.0F : caster.facet(facet).vertex.z());
+        return heights;
+    };
+    SharedTrees shared;
+    for (const float x : {0.5F, 1.0F, -1.0F, 0.5F}) {
+        Scene scene = scene_with(x);
+        const std::vector<float> by_shared = hits(shared.caster(scene));
+        scene.first_file_triangles = 0;  // one tree of all
+        CHECK(by_shared == hits(Caster(scene)));
     }
+}
 
-    TEST_CASE("caster: scenes with the same first file share its tree and have their own hits") {
-        const auto scene_with = [](float x) {
-            Scene scene = empty_scene();
-            const std::uint32_t material = add_material(scene, 1.0F);
-            add_sphere(scene, {0, 0, -8}, 1.0F, material, 256);
-            scene.first_file_triangles = scene.triangles.size();
-            scene.first_file_vertices = scene.vertices.size();
-            add_sphere(scene, {x, 0, -7}, 0.5F, material, 64);
-            return scene;
-        };
-        std::vector<Eigen::Vector3f> directions;
-        for (int k = -100; k <= 100; ++k)
-            directions.push_back(Eigen::Vector3f(0.003F * static_cast<float>(k), 0.01F, -1));
-        const auto hits = [&](const Caster& caster) {
-            std::vector<std::uint32_t> facets(directions.size());
-            caster.cast(Eigen::Vector3f::Zero(), directions, 100.0F, facets);
-            std::vector<float> heights;
-            for (const std::uint32_t facet : facets)
-                heights.push_back(facet == Caster::nothing ? 0.0F : caster.facet(facet).vertex.z());
-            return heights;
-        };
-        SharedTrees shared;
-        for (const float x : {0.5F, 1.0F, -1.0F, 0.5F}) {
-            Scene scene = scene_with(x);
-            const std::vector<float> by_shared = hits(shared.caster(scene));
-            scene.first_file_triangles = 0;  // one tree of all
-            CHECK(by_shared == hits(Caster(scene)));
-        }
-    }
-
-    // Embree's distances contain estimates of reciprocals, and so did these decisions.
-    TEST_CASE("caster: of facets that coincide the first counts, on every processor") {
-        constexpr int rays = 4000;
-        for (const int n : {3, 5}) {
-            Scene scene = empty_scene();
-            add_material(scene, 1.0F);
-            add_slanted(scene, n);
-            const auto first = static_cast<std::uint32_t>(scene.triangles.size());
-            add_slanted(scene, 8 - n);
-            CHECK(met_below(Caster(scene), first, rays) == rays);
-            Scene placed = empty_scene();
-            placed.materials = scene.materials;
-            placed.instances = scene.instances;
-            placed.shared_meshes.push_back(
-                {scene.vertices, scene.triangles, scene.triangle_material});
-            const Eigen::Affine3d T = Eigen::Translation3d(1.0, 2.0, 3.0) *
-                                      rotation_from_rpy(0.3, 0.2, -0.4) * Eigen::Scaling(0.7);
-            placed.copies.push_back({0, 0, T});
-            CHECK(met_below(Caster(placed), first, rays) == rays);
-        }
-    }
-
-    TEST_CASE("caster: a ray meets a facet up to the distance of its plane and no further") {
+// Embree's distances contain estimates of reciprocals, and so did these decisions.
+TEST_CASE("caster: of facets that coincide the first counts, on every processor") {
+    constexpr int rays = 4000;
+    for (const int n : {3, 5}) {
         Scene scene = empty_scene();
-        add_sphere(scene, {3, -2, 1}, 1.0F, add_material(scene, 1.0F), 64);
-        const Caster caster(scene);
-        const Eigen::Vector3f origin(-4.0F, 1.5F, 2.5F);
-        Draws draws(1);
-        for (int k = 0; k < 4000; ++k) {
-            const Eigen::Vector3f to = Eigen::Vector3f(3, -2, 1) + 0.95F * draws.in_ball();
-            const Eigen::Vector3f direction = (to - origin).normalized();
-            const auto met = [&](float reach_m) -> std::uint32_t {
-                std::uint32_t facet = Caster::nothing;
-                caster.cast(origin, {&direction, 1}, reach_m, {&facet, 1});
-                return facet;
-            };
-            const std::uint32_t facet = met(100.0F);
-            REQUIRE(facet != Caster::nothing);
-            const float distance = distance_of(caster.facet(facet), origin, direction);
-            CHECK(met(distance) == facet);
-            CHECK(met(std::nextafter(distance, 0.0F)) == Caster::nothing);
-        }
+        add_material(scene, 1.0F);
+        add_slanted(scene, n);
+        const auto first = static_cast<std::uint32_t>(scene.triangles.size());
+        add_slanted(scene, 8 - n);
+        CHECK(met_below(Caster(scene), first, rays) == rays);
+        Scene placed = empty_scene();
+        placed.materials = scene.materials;
+        placed.instances = scene.instances;
+        placed.shared_meshes.push_back({scene.vertices, scene.triangles, scene.triangle_material});
+        const Eigen::Affine3d T = Eigen::Translation3d(1.0, 2.0, 3.0) *
+                                  rotation_from_rpy(0.3, 0.2, -0.4) * Eigen::Scaling(0.7);
+        placed.copies.push_back({0, 0, T});
+        CHECK(met_below(Caster(placed), first, rays) == rays);
+    }
+}
+
+TEST_CASE("caster: a ray meets a facet up to the distance of its plane and no further") {
+    Scene scene = empty_scene();
+    add_sphere(scene, {3, -2, 1}, 1.0F, add_material(scene, 1.0F), 64);
+    const Caster caster(scene);
+    const Eigen::Vector3f origin(-4.0F, 1.5F, 2.5F);
+    Draws draws(1);
+    for (int k = 0; k < 4000; ++k) {
+        const Eigen::Vector3f to = Eigen::Vector3f(3, -2, 1) + 0.95F * draws.in_ball();
+        const Eigen::Vector3f direction = (to - origin).normalized();
+        const auto met = [&](float reach_m) -> std::uint32_t {
+            std::uint32_t facet = Caster::nothing;
+            caster.cast(origin, {&direction, 1}, reach_m, {&facet, 1});
+            return facet;
+        };
+        const std::uint32_t facet = met(100.0F);
+        REQUIRE(facet != Caster::nothing);
+        const float distance = distance_of(caster.facet(facet), origin, direction);
+        CHECK(met(distance) == facet);
+        CHECK(met(std::nextafter(distance, 0.0F)) == Caster::nothing);
     }
 }

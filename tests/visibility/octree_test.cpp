@@ -3,8 +3,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("visibility");
-
 TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
     Scene scene = test::empty_scene();
     test::add_quad(scene, {4, -1, -1}, {4, 1, -1}, {4, 1, 1}, {4, -1, 1},
@@ -52,5 +50,3 @@ TEST_CASE("octree: an empty scene has no leaves, and leaves may be too small for
     Scene scene = test::floor_scene(1e6F, 0.0F, 0.5F);
     CHECK_THROWS_AS(make_octree_engine(scene, {1e-3}), InputError);
 }
-
-TEST_SUITE_END();

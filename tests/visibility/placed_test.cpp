@@ -46,76 +46,74 @@ Intersection met_along_x(const VisibilityEngine& engine, const Eigen::Vector3d& 
 
 }  // namespace
 
-TEST_SUITE("visibility") {
-    TEST_CASE("copies: every copy of a sphere is met where it stands, in its own size") {
-        // The origin is far from the world's, where floats are a quarter of a metre apart.
-        const Eigen::Vector3d origin(4e6, 5e6, 0.0);
-        std::vector<Eigen::Affine3d> places;
-        for (int k = 0; k < 20; ++k)
-            places.push_back(placed(origin + Eigen::Vector3d(3.0 + 0.2 * k, 5.0 * k, 0.0),
-                                    0.2 + 0.1 * k, 0.4 * k));
-        const Scene scene = spheres(places, origin);
-        const auto engine = make_rays_engine(scene);
-        for (int k = 0; k < 20; ++k) {
-            // A ray along x that passes the centre at 0.3 radii meets the sphere sqrt(1 - 0.3^2)
-            // radii before it. Facets lie at most r (1 - cos(pi / 512)) = 1.9e-5 r inside.
-            const double r = 0.2 + 0.1 * k;
-            const double along = std::sqrt(1.0 - 0.09);
-            const Intersection hit =
-                met_along_x(*engine, origin + Eigen::Vector3d(0.0, 5.0 * k + 0.3 * r, 0.0));
-            CHECK(std::fabs(hit.distance_m - (3.0 + 0.2 * k - along * r)) < 5e-5 * r + 2e-5);
-            CHECK((hit.normal.cast<double>() - Eigen::Vector3d(-along, 0.3, 0.0)).norm() < 0.02);
-            CHECK(std::fabs(hit.normal.norm() - 1.0F) < 1e-5F);
-            CHECK(hit.instance == static_cast<std::uint32_t>(k));
-        }
+TEST_CASE("copies: every copy of a sphere is met where it stands, in its own size") {
+    // The origin is far from the world's, where floats are a quarter of a metre apart.
+    const Eigen::Vector3d origin(4e6, 5e6, 0.0);
+    std::vector<Eigen::Affine3d> places;
+    for (int k = 0; k < 20; ++k)
+        places.push_back(
+            placed(origin + Eigen::Vector3d(3.0 + 0.2 * k, 5.0 * k, 0.0), 0.2 + 0.1 * k, 0.4 * k));
+    const Scene scene = spheres(places, origin);
+    const auto engine = make_rays_engine(scene);
+    for (int k = 0; k < 20; ++k) {
+        // A ray along x that passes the centre at 0.3 radii meets the sphere sqrt(1 - 0.3^2)
+        // radii before it. Facets lie at most r (1 - cos(pi / 512)) = 1.9e-5 r inside.
+        const double r = 0.2 + 0.1 * k;
+        const double along = std::sqrt(1.0 - 0.09);
+        const Intersection hit =
+            met_along_x(*engine, origin + Eigen::Vector3d(0.0, 5.0 * k + 0.3 * r, 0.0));
+        CHECK(std::fabs(hit.distance_m - (3.0 + 0.2 * k - along * r)) < 5e-5 * r + 2e-5);
+        CHECK((hit.normal.cast<double>() - Eigen::Vector3d(-along, 0.3, 0.0)).norm() < 0.02);
+        CHECK(std::fabs(hit.normal.norm() - 1.0F) < 1e-5F);
+        CHECK(hit.instance == static_cast<std::uint32_t>(k));
     }
+}
 
-    TEST_CASE("moving: a sphere that flies past is met where it is, at every moment") {
-        const Scene shape = unit_sphere();
-        Scene scene = empty_scene();
-        scene.materials = shape.materials;
-        scene.instances = {"body"};
-        scene.instance_classes = {""};
-        scene.bodies.push_back({0, shape.vertices, shape.triangles, shape.triangle_material});
-        const auto engine = make_rays_engine(scene);
-        // A ray from the origin along x meets a sphere at (a, b, 0) at a - sqrt(1 - b^2). The
-        // facets are 19 um inside, along the ray at most 2.6 times as much.
-        for (int k = -9; k <= 9; ++k) {
-            const double b = 0.1 * k;
-            const double a = 5.0 + 0.1 * k;
-            const Pose pose{rotation_from_rpy(0.3 * k, 0.2, 0.1 * k), {a, b, 0.0}};
-            const Intersection hit = met_along_x(*engine->at({&pose, 1}), {0, 0, 0});
-            const double expected = a - std::sqrt(1.0 - b * b);
-            CHECK(std::fabs(hit.distance_m - expected) < 1e-4);
-            const Eigen::Vector3d normal = Eigen::Vector3d(expected, 0, 0) - pose.translation;
-            CHECK((hit.normal.cast<double>() - normal).norm() < 0.02);
-            CHECK(hit.instance == 0);
-        }
-        // A ray meets nothing before the body is placed, nor next to it.
-        CHECK(std::isinf(met_along_x(*engine, {0, 0, 0}).distance_m));
-        const Pose beside{Eigen::Quaterniond::Identity(), {5.0, 1.1, 0.0}};
-        CHECK(std::isinf(met_along_x(*engine->at({&beside, 1}), {0, 0, 0}).distance_m));
+TEST_CASE("moving: a sphere that flies past is met where it is, at every moment") {
+    const Scene shape = unit_sphere();
+    Scene scene = empty_scene();
+    scene.materials = shape.materials;
+    scene.instances = {"body"};
+    scene.instance_classes = {""};
+    scene.bodies.push_back({0, shape.vertices, shape.triangles, shape.triangle_material});
+    const auto engine = make_rays_engine(scene);
+    // A ray from the origin along x meets a sphere at (a, b, 0) at a - sqrt(1 - b^2). The
+    // facets are 19 um inside, along the ray at most 2.6 times as much.
+    for (int k = -9; k <= 9; ++k) {
+        const double b = 0.1 * k;
+        const double a = 5.0 + 0.1 * k;
+        const Pose pose{rotation_from_rpy(0.3 * k, 0.2, 0.1 * k), {a, b, 0.0}};
+        const Intersection hit = met_along_x(*engine->at({&pose, 1}), {0, 0, 0});
+        const double expected = a - std::sqrt(1.0 - b * b);
+        CHECK(std::fabs(hit.distance_m - expected) < 1e-4);
+        const Eigen::Vector3d normal = Eigen::Vector3d(expected, 0, 0) - pose.translation;
+        CHECK((hit.normal.cast<double>() - normal).norm() < 0.02);
+        CHECK(hit.instance == 0);
     }
+    // A ray meets nothing before the body is placed, nor next to it.
+    CHECK(std::isinf(met_along_x(*engine, {0, 0, 0}).distance_m));
+    const Pose beside{Eigen::Quaterniond::Identity(), {5.0, 1.1, 0.0}};
+    CHECK(std::isinf(met_along_x(*engine->at({&beside, 1}), {0, 0, 0}).distance_m));
+}
 
-    TEST_CASE("copies: next to a body that moves both are met") {
-        const std::vector<Eigen::Affine3d> places{placed({6.0, 0.0, 0.0}, 1.0, 0.0),
-                                                  placed({6.0, 4.0, 0.0}, 1.0, 0.0)};
-        Scene scene = spheres(places, Eigen::Vector3d::Zero());
-        Scene box = empty_scene();
-        add_box(box, {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, 0);
-        scene.instances.emplace_back("box");
-        scene.instance_classes.emplace_back("");
-        scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
-        const auto engine = make_rays_engine(scene);
-        const Pose at{Eigen::Quaterniond::Identity(), {3.0, 4.0, 0.0}};
-        const auto now = engine->at({&at, 1});
-        for (const double y : {0.0, 4.0}) {
-            const Intersection before = met_along_x(*engine, {0.0, y, 0.0});
-            const Intersection after = met_along_x(*now, {0.0, y, 0.0});
-            CHECK(std::fabs(before.distance_m - 5.0F) < 1e-3F);
-            CHECK(before.instance == (y > 0.0 ? 1 : 0));
-            CHECK(std::fabs(after.distance_m - (y > 0.0 ? 2.5F : 5.0F)) < 1e-3F);
-            CHECK(after.instance == (y > 0.0 ? 2 : 0));
-        }
+TEST_CASE("copies: next to a body that moves both are met") {
+    const std::vector<Eigen::Affine3d> places{placed({6.0, 0.0, 0.0}, 1.0, 0.0),
+                                              placed({6.0, 4.0, 0.0}, 1.0, 0.0)};
+    Scene scene = spheres(places, Eigen::Vector3d::Zero());
+    Scene box = empty_scene();
+    add_box(box, {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, 0);
+    scene.instances.emplace_back("box");
+    scene.instance_classes.emplace_back("");
+    scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
+    const auto engine = make_rays_engine(scene);
+    const Pose at{Eigen::Quaterniond::Identity(), {3.0, 4.0, 0.0}};
+    const auto now = engine->at({&at, 1});
+    for (const double y : {0.0, 4.0}) {
+        const Intersection before = met_along_x(*engine, {0.0, y, 0.0});
+        const Intersection after = met_along_x(*now, {0.0, y, 0.0});
+        CHECK(std::fabs(before.distance_m - 5.0F) < 1e-3F);
+        CHECK(before.instance == (y > 0.0 ? 1 : 0));
+        CHECK(std::fabs(after.distance_m - (y > 0.0 ? 2.5F : 5.0F)) < 1e-3F);
+        CHECK(after.instance == (y > 0.0 ? 2 : 0));
     }
 }

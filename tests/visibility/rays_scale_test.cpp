@@ -3,8 +3,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("visibility");
-
 namespace {
 
 /// The samples of a tank with the sonar `height` above an extra floor, all in metres times `unit`.
@@ -38,5 +36,3 @@ TEST_CASE("rays: a scene of a millimetre is seen as the same scene of ten metres
     CHECK(samples_at(5e-7F, 1.0).dropped > 0);
     CHECK(samples_at(5e-7F, unit).dropped > 0);
 }
-
-TEST_SUITE_END();

@@ -40,8 +40,6 @@ double solid_angle(const View& view) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("visibility");
-
 // If energies add, an engine must neither lose nor invent surface: dOmega = cosine dA / r^2, with
 // cosine = h / r, must add up to the solid angle of a view that a room fills.
 TEST_CASE("a room fills the solid angle of a view, thin objects included") {
@@ -63,5 +61,3 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
         }
     }
 }
-
-TEST_SUITE_END();

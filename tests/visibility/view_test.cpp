@@ -4,8 +4,6 @@
 
 using namespace sonarsim;
 
-TEST_SUITE_BEGIN("visibility");
-
 TEST_CASE("the field of view in float agrees with beam_of") {
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         View view{radians(100.0), radians(40.0), 0.5, 10.0, 512, 128, 0.03};
@@ -47,5 +45,3 @@ TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
     CHECK(beam_of(view, {-1.0F, -1e-3F, 0.0F}) == 0);
     CHECK(beam_of(view, {-1.0F, 1e-3F, 0.0F}) == 2);
 }
-
-TEST_SUITE_END();

@@ -1,6 +1,5 @@
 #include "input/scene/images/read_image.h"
 
-#include "core/file.h"
 #include "output/format/geotiff.h"
 #include "support/test.h"
 

@@ -1,7 +1,6 @@
 #include "input/scene/gltf/load.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/seabed/bed_model.h"
-#include "input/scene/seabed/seabed.h"
 #include "support/seabed.h"
 #include "support/statistics.h"
 

@@ -1,4 +1,3 @@
-#include "core/elementary.h"
 #include "support/draws.h"
 #include "visibility/strips/fixtures.h"
 
@@ -29,8 +28,6 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("strips");
 
 TEST_CASE("strips: two materials that meet along an azimuth share the beam as they lie") {
     // A level floor of one material left of an azimuth and of another one right of it: at each
@@ -159,5 +156,3 @@ TEST_CASE("strips: a cable ends in range where its corners do") {
         }
     }
 }
-
-TEST_SUITE_END();

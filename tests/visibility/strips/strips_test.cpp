@@ -1,21 +1,19 @@
-#include "core/elementary.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
-#include "support/test.h"
+#include "visibility/strips/fixtures.h"
 
 using namespace sonarsim;
+using test::area_of;
+using test::fan_view;
+using test::seen;
 
 namespace {
 
-View fan_of_strips() {
-    return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
-}
-
 View sides_of_strips() {
-    View view = fan_of_strips();
+    View view = fan_view();
     view.azimuth_rad = radians(120.0);
     view.elevation_rad = radians(1.0);
     view.beams = 2;
@@ -24,22 +22,11 @@ View sides_of_strips() {
 }
 
 View cone_of_strips() {
-    View view = fan_of_strips();
+    View view = fan_view();
     view.azimuth_rad = view.elevation_rad = radians(60.0);
     view.beams = 1;
     view.shape = ViewShape::cone;
     return view;
-}
-
-Samples seen_by_strips(const Scene& scene, const View& view, const Pose& pose = {}) {
-    return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
-}
-
-double area_by_strips(std::span<const Sample> samples) {
-    double area = 0.0;
-    for (const Sample& sample : samples)
-        area += static_cast<double>(sample.area_m2);
-    return area;
 }
 
 /// The solid angle that the samples fill.
@@ -70,15 +57,12 @@ double wall_area(double d, const View& view) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("strips");
-
 TEST_CASE("strips: a wall seen face on has its area, whole or in many triangles") {
-    const View view = fan_of_strips();
+    const View view = fan_view();
     for (const int n : {1, 7, 200}) {
         CAPTURE(n);
-        const Samples samples = seen_by_strips(wall_ahead(5.0F, n), view);
-        CHECK(area_by_strips(samples.items) / wall_area(5.0, view) ==
-              test::approx(1.0).epsilon(2e-3));
+        const Samples samples = seen(wall_ahead(5.0F, n), view);
+        CHECK(area_of(samples) / wall_area(5.0, view) == test::approx(1.0).epsilon(2e-3));
         for (const Sample& sample : samples.items) {
             CHECK(sample.position.x() == test::approx(5.0).epsilon(1e-3));
             CHECK(sample.height_m == test::approx(5.0).epsilon(1e-5));
@@ -98,7 +82,7 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
         const double error = opening_deg < 1.0 ? 0.02 : 0.01;
         for (const int n : {1, 40}) {
             if (n > 1 && opening_deg < 1.0) continue;
-            CHECK(area_by_strips(seen_by_strips(wall_ahead(4.0F, n), view).items) ==
+            CHECK(area_of(seen(wall_ahead(4.0F, n), view)) ==
                   test::approx(pi * radius * radius).epsilon(error));
         }
     }
@@ -109,14 +93,14 @@ TEST_CASE("strips: a sphere fills the solid angle that it should") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
-    for (const View& view : {fan_of_strips(), cone_of_strips()})
-        CHECK(filled_sr(seen_by_strips(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
+    for (const View& view : {fan_view(), cone_of_strips()})
+        CHECK(filled_sr(seen(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {0, 0, 0}, 3.0F, test::add_material(scene, 0.5F), 128);
-    View view = fan_of_strips();
+    View view = fan_view();
     view.azimuth_rad = 2.0 * pi;
     for (const double elevation_deg : {180.0, 120.0, 60.0}) {
         CAPTURE(elevation_deg);
@@ -125,13 +109,12 @@ TEST_CASE("strips: full turns and steep views see all of a sphere around the son
         for (const int beams : {1, 2, 3, 64, 1000}) {
             CAPTURE(beams);
             view.beams = beams;
-            const Samples samples = seen_by_strips(scene, view);
-            CHECK(area_by_strips(samples.items) == test::approx(expected).epsilon(0.01));
+            const Samples samples = seen(scene, view);
+            CHECK(area_of(samples) == test::approx(expected).epsilon(0.01));
             // Columns meet at the poles of a view of 180 degrees.
             const double of_beam = elevation_deg > 120.0 ? 0.15 : 0.02;
             for (int j = 0; j < beams; ++j)
-                CHECK(area_by_strips(samples.beam(j)) ==
-                      test::approx(expected / beams).epsilon(of_beam));
+                CHECK(area_of(samples.beam(j)) == test::approx(expected / beams).epsilon(of_beam));
         }
     }
 }
@@ -147,9 +130,9 @@ TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
     const double y = 4.0 * std::tan(radians(60.0));
     const double expected = 2.0 * std::tan(0.5 * view.elevation_rad) *
                             (y * std::hypot(4.0, y) + 16.0 * std::asinh(y / 4.0)) / 2.0;
-    const Samples samples = seen_by_strips(scene, view);
+    const Samples samples = seen(scene, view);
     for (const int side : {0, 1}) {
-        const double area = area_by_strips(samples.beam(side));
+        const double area = area_of(samples.beam(side));
         for (const Sample& sample : samples.beam(side))
             CHECK((sample.position.y() > 0.0F) == (side == 1));
         CHECK(area == test::approx(expected).epsilon(0.02));
@@ -169,7 +152,7 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     }
     std::array<double, 3> area{};
     double wrong = 0.0;
-    const Samples samples = seen_by_strips(scene, fan_of_strips());
+    const Samples samples = seen(scene, fan_view());
     for (const Sample& sample : samples.items) {
         const auto k = std::ranges::find(material, sample.material) - material.begin();
         area[k] += static_cast<double>(sample.area_m2);
@@ -181,8 +164,7 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     CHECK(area[0] > 1.0);
     CHECK(wrong < 1e-3 * area[0]);
     CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-3));
-    const double solid =
-        2.0 * fan_of_strips().azimuth_rad * sincos(0.5 * fan_of_strips().elevation_rad).sin;
+    const double solid = 2.0 * fan_view().azimuth_rad * sincos(0.5 * fan_view().elevation_rad).sin;
     CHECK(filled_sr(samples) == test::approx(solid).epsilon(2e-3));
 }
 
@@ -190,7 +172,7 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
     // Beams of 150 degrees. The reference has 64 beams in place of each.
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(0.0F, 1.0F);
-    View view = fan_of_strips();
+    View view = fan_view();
     view.beams = 2;
     view.azimuth_rad = radians(300.0);
     View narrow = view;
@@ -205,14 +187,14 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
             test::add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F,
                            0.6F, rock, 6);
         }
-        const Samples image = seen_by_strips(scene, view);
-        const Samples reference = seen_by_strips(scene, narrow);
+        const Samples image = seen(scene, view);
+        const Samples reference = seen(scene, narrow);
         for (const int beam : {0, 1}) {
             CAPTURE(beam);
             double expected = 0.0;
             for (int j = 64 * beam; j < 64 * beam + 64; ++j)
-                expected += area_by_strips(reference.beam(j));
-            CHECK(area_by_strips(image.beam(beam)) == test::approx(expected).epsilon(0.02));
+                expected += area_of(reference.beam(j));
+            CHECK(area_of(image.beam(beam)) == test::approx(expected).epsilon(0.02));
         }
     }
 }
@@ -227,17 +209,16 @@ TEST_CASE("strips: footprints tile the ground, and their areas are the surface's
                          0.1F + 0.01F * at, rock, 24);
     }
     test::add_quad(scene, {0, -9, -1}, {14, -9, -1}, {14, 9, -1}, {0, 9, -1}, rock, 80);
-    View view = fan_of_strips();
+    View view = fan_view();
     const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.1), {0.0, 0.0, 0.3}};
-    const Samples usual = seen_by_strips(scene, view, pose);
+    const Samples usual = seen(scene, view, pose);
     double own = 0.0;
     for (const Sample& sample : usual.items)
         own += static_cast<double>(4.0F * sample.edge_u.cross(sample.edge_v).norm());
-    const double area = area_by_strips(usual.items);
+    const double area = area_of(usual);
     CHECK(own / area == test::approx(1.0).epsilon(0.005));
     view.relative_l1 = 0.003;
-    CHECK(area / area_by_strips(seen_by_strips(scene, view, pose).items) ==
-          test::approx(1.0).epsilon(0.01));
+    CHECK(area / area_of(seen(scene, view, pose)) == test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: drawn lattices are within their error goals") {
@@ -262,5 +243,3 @@ TEST_CASE("strips: drawn lattices are within their error goals") {
         CHECK(mean / count < goal);
     }
 }
-
-TEST_SUITE_END();

@@ -1,5 +1,4 @@
 #include "simulate/reference/reference.h"
-#include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/lattices.h"
@@ -75,8 +74,6 @@ double worst_beam(const std::vector<float>& image, const Reference& reference, c
 }
 
 }  // namespace
-
-TEST_SUITE_BEGIN("strips");
 
 TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder") {
     // The mean of v . n over the visible half of a cylinder is 2 / pi = 0.64.
@@ -219,5 +216,3 @@ TEST_CASE("strips: no beam of a drawn lattice is far from brute force at any goa
         }
     }
 }
-
-TEST_SUITE_END();
