@@ -61,6 +61,7 @@ PARTS = {
                 ["encode_ping"]],
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
             ["run_job", "ping_source"], ["variants"], ["merge", "status", "verify"]],
+    "calibrated": [["signal/"], ["equation/"], ["beams/", "speckle/"], ["receiver/"], ["*"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]],
 }
@@ -103,7 +104,8 @@ def part_of(unit: str) -> tuple[str, int] | None:
     for height, row in enumerate(rows):
         if name in row:
             return name, height
-    return ("*", 0) if len(rest) == 1 else None
+    rest_height = next(height for height, row in enumerate(rows) if "*" in row)
+    return ("*", rest_height) if len(rest) == 1 else None
 
 
 def fault_of(here: str, unit: str, name: str, quoted: bool) -> str | None:

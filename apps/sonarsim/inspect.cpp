@@ -21,8 +21,8 @@
 #include "output/dataset/json.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/placed_files.h"
-#include "simulate/calibrated/bottom.h"
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/equation/bottom.h"
+#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

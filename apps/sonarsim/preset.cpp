@@ -10,7 +10,7 @@
 #include "core/units.h"
 #include "input/mission/parse.h"
 #include "logging.h"
-#include "simulate/calibrated/expected_echo.h"
+#include "simulate/calibrated/equation/expected_echo.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"

@@ -1,6 +1,6 @@
 #include "simulate/assembly/particles.h"
 
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/statistics.h"

@@ -1,8 +1,8 @@
 #include "core/lanes.h"
 #include "core/random.h"
-#include "simulate/calibrated/echo_grid.h"
-#include "simulate/calibrated/normals.h"
-#include "simulate/calibrated/speckle.h"
+#include "simulate/calibrated/signal/echo_grid.h"
+#include "simulate/calibrated/signal/normals.h"
+#include "simulate/calibrated/speckle/speckle.h"
 #include "support/test.h"
 
 using namespace sonarsim;

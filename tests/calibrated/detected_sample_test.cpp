@@ -1,4 +1,4 @@
-#include "simulate/calibrated/detected_sample.h"
+#include "simulate/calibrated/receiver/detected_sample.h"
 
 #include "support/statistics.h"
 

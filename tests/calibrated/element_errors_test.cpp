@@ -1,5 +1,5 @@
-#include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/sonar_equation.h"
+#include "simulate/calibrated/equation/sonar_equation.h"
+#include "simulate/calibrated/signal/directivity.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

@@ -1,7 +1,7 @@
-#include "simulate/calibrated/expected_echo.h"
+#include "simulate/calibrated/equation/expected_echo.h"
 
 #include "calibrated/preset_fixtures.h"
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/signal/decibel.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

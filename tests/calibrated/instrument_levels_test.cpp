@@ -1,9 +1,9 @@
-#include "simulate/calibrated/instrument_levels.h"
+#include "simulate/calibrated/equation/instrument_levels.h"
 
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/range_response.h"
+#include "simulate/calibrated/equation/expected_echo.h"
+#include "simulate/calibrated/signal/decibel.h"
+#include "simulate/calibrated/signal/directivity.h"
+#include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

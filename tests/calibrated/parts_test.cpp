@@ -1,6 +1,6 @@
-#include "simulate/calibrated/beamformer.h"
-#include "simulate/calibrated/receiver_chain.h"
-#include "simulate/calibrated/scatterers.h"
+#include "simulate/calibrated/beams/beamformer.h"
+#include "simulate/calibrated/receiver/receiver_chain.h"
+#include "simulate/calibrated/speckle/scatterers.h"
 #include "support/test.h"
 
 using namespace sonarsim;

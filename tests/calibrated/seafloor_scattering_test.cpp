@@ -1,7 +1,7 @@
-#include "simulate/calibrated/seafloor_scattering.h"
+#include "simulate/calibrated/equation/seafloor_scattering.h"
 
-#include "simulate/calibrated/bottom.h"
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/equation/bottom.h"
+#include "simulate/calibrated/signal/decibel.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -1,7 +1,7 @@
-#include "simulate/calibrated/specular_echoes.h"
+#include "simulate/calibrated/equation/specular_echoes.h"
 
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/signal/decibel.h"
+#include "simulate/calibrated/signal/directivity.h"
 #include "simulate/sonar/setup.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/ping/form_image.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

@@ -1,4 +1,4 @@
-#include "simulate/calibrated/speckle.h"
+#include "simulate/calibrated/speckle/speckle.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

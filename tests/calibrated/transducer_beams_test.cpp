@@ -1,10 +1,10 @@
-#include "simulate/calibrated/transducer_beams.h"
+#include "simulate/calibrated/beams/transducer_beams.h"
 
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/directivity.h"
-#include "simulate/calibrated/line_array.h"
-#include "simulate/calibrated/near_field.h"
-#include "simulate/calibrated/range_response.h"
+#include "simulate/calibrated/signal/decibel.h"
+#include "simulate/calibrated/signal/directivity.h"
+#include "simulate/calibrated/signal/line_array.h"
+#include "simulate/calibrated/signal/near_field.h"
+#include "simulate/calibrated/signal/range_response.h"
 #include "support/test.h"
 
 using namespace sonarsim;

@@ -2,8 +2,8 @@
 
 #include "calibrated/water_fixtures.h"
 #include "input/mission/mission.h"
-#include "simulate/calibrated/target_strength.h"
-#include "simulate/calibrated/water.h"
+#include "simulate/calibrated/equation/target_strength.h"
+#include "simulate/calibrated/equation/water.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/signal/decibel.h"
+#include "simulate/calibrated/signal/directivity.h"
 #include "support/calibrated.h"
 
 namespace sonarsim::test {

@@ -69,7 +69,7 @@ struct PulseConfig {
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    double texture = 1.0;  ///< factor on the patches in dB (simulate/calibrated/speckle.h)
+    double texture = 1.0;  ///< factor on the patches in dB (simulate/calibrated/speckle/speckle.h)
 };
 
 /// The value that is delivered of several samples.

@@ -5,7 +5,7 @@
 #include "input/mission/ping_draws.h"
 #include "output/dataset/json.h"
 #include "output/dataset/writer.h"
-#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

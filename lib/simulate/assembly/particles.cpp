@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/target_strength.h"
+#include "simulate/calibrated/equation/target_strength.h"
+#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/trace/particles.h"
 
 namespace sonarsim {

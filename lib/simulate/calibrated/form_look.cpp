@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/elementary.h"
+#include "simulate/calibrated/equation/piece_strengths.h"
+#include "simulate/calibrated/equation/specular_echoes.h"
 #include "simulate/calibrated/kind_echoes.h"
-#include "simulate/calibrated/piece_strengths.h"
-#include "simulate/calibrated/receiver_chain.h"
-#include "simulate/calibrated/scatterer_search.h"
-#include "simulate/calibrated/speckle.h"
-#include "simulate/calibrated/specular_echoes.h"
-#include "simulate/calibrated/target_scatterers.h"
+#include "simulate/calibrated/receiver/receiver_chain.h"
+#include "simulate/calibrated/speckle/scatterer_search.h"
+#include "simulate/calibrated/speckle/speckle.h"
+#include "simulate/calibrated/speckle/target_scatterers.h"
 #include "simulate/calibrated/water_echoes.h"
 
 namespace sonarsim {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "simulate/calibrated/equation/patches.h"
 #include "simulate/calibrated/model.h"
-#include "simulate/calibrated/patches.h"
 #include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {

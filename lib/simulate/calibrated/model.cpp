@@ -9,12 +9,12 @@
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "core/units.h"
-#include "simulate/calibrated/beamformer.h"
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/expected_echo.h"
-#include "simulate/calibrated/instrument_levels.h"
-#include "simulate/calibrated/transducer_beams.h"
-#include "simulate/calibrated/water.h"
+#include "simulate/calibrated/beams/beamformer.h"
+#include "simulate/calibrated/beams/transducer_beams.h"
+#include "simulate/calibrated/equation/expected_echo.h"
+#include "simulate/calibrated/equation/instrument_levels.h"
+#include "simulate/calibrated/equation/water.h"
+#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

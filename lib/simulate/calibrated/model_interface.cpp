@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "simulate/calibrated/bottom.h"
+#include "simulate/calibrated/equation/bottom.h"
+#include "simulate/calibrated/equation/wind_surface.h"
 #include "simulate/calibrated/form_look.h"
 #include "simulate/calibrated/model.h"
-#include "simulate/calibrated/receiver_chain.h"
-#include "simulate/calibrated/wind_surface.h"
+#include "simulate/calibrated/receiver/receiver_chain.h"
 
 namespace sonarsim {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "input/scene/objects.h"
+#include "simulate/calibrated/equation/piece_strengths.h"
+#include "simulate/calibrated/equation/specular_echoes.h"
 #include "simulate/calibrated/kind_echoes.h"
-#include "simulate/calibrated/piece_strengths.h"
-#include "simulate/calibrated/specular_echoes.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/visibility/engine.h"
 

@@ -7,8 +7,8 @@
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "core/units.h"
-#include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/instrument_levels.h"
+#include "simulate/calibrated/equation/instrument_levels.h"
+#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

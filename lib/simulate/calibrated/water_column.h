@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "input/mission/mission.h"
-#include "simulate/calibrated/beams.h"
+#include "simulate/calibrated/beams/beams.h"
 #include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {

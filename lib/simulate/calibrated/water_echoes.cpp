@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simulate/calibrated/patches.h"
+#include "simulate/calibrated/equation/patches.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"
 

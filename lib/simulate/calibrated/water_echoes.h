@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulate/calibrated/model.h"
-#include "simulate/calibrated/speckle.h"
+#include "simulate/calibrated/speckle/speckle.h"
 
 namespace sonarsim {
 

@@ -1,0 +1,272 @@
+#include "simulate/calibrated/beams/beamformer.h"
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "simulate/calibrated/signal/directivity.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Columns outside the outer beams, for echoes at the view's edge and for interpolation.
+constexpr int margin = 5;
+// Free columns after the last one, so that an outer beam does not wrap to the other side.
+constexpr int gap = 12;
+
+/// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
+double covered(double at, double half) {
+    const double low = std::max(at - 0.5, -half);
+    const double high = std::min(at + 0.5, half);
+    return std::max(high - low, 0.0);
+}
+
+using Complexes = std::vector<std::complex<double>>;
+
+/// The weights of the elements -reach to reach. Their transform is the array's pattern.
+Complexes element_weights(const LineArray& array, double elements) {
+    const int reach = static_cast<int>(std::ceil(0.5 * elements - 0.5));
+    Complexes out;
+    for (int k = -reach; k <= reach; ++k) {
+        const double share = covered(k, 0.5 * elements);
+        // An element at the end has the weight of its part within the aperture.
+        const double x = std::clamp(k / elements, -0.5, 0.5);
+        out.push_back(array.weight(x) * (share / elements));
+    }
+    return out;
+}
+
+/// Applies the errors of the array's elements. The mean side lobe is the errors' variance divided
+/// by the number of elements, so the variance is scaled from the array's elements to the samples of
+/// the aperture.
+void add_element_errors(const LineArray& array, const ElementsConfig& elements, double samples,
+                        Complexes& weights) {
+    if (!elements.exist()) return;
+    const double scale = std::sqrt(samples / element_count(array));
+    const Complexes errors = element_errors(elements, static_cast<int>(weights.size()));
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        weights[k] *= 1.0 + scale * errors[k];
+}
+
+/// The weights of the squared pattern: the weights correlated with themselves.
+Complexes correlated(const Complexes& weights) {
+    const int n = static_cast<int>(weights.size());
+    Complexes out;
+    for (int lag = -(n - 1); lag <= n - 1; ++lag) {
+        std::complex<double> sum = 0.0;
+        for (int k = std::max(0, -lag); k < std::min(n, n - lag); ++k)
+            sum += weights[k + lag] * std::conj(weights[k]);
+        out.push_back(sum);
+    }
+    return out;
+}
+
+/// Kaiser's window, to -60 dB, at x in [-1, 1].
+double window(double x) {
+    const auto bessel = [](double y) {
+        double term = 1.0;
+        double sum = 1.0;
+        for (int k = 1; k < 30; ++k) {
+            term *= 0.25 * y * y / (static_cast<double>(k) * k);
+            sum += term;
+        }
+        return sum;
+    };
+    constexpr double shape = 6.0;
+    return bessel(shape * std::sqrt(std::max(1.0 - x * x, 0.0))) / bessel(shape);
+}
+
+/// The complex numbers of 8 bins of a column: real parts and imaginary parts.
+void load_bins(const float* bins, ComplexLanes& out) {
+    const __m256 low = _mm256_loadu_ps(bins);
+    const __m256 high = _mm256_loadu_ps(bins + lanes);
+    const __m256 first = _mm256_permute2f128_ps(low, high, 0x20);
+    const __m256 second = _mm256_permute2f128_ps(low, high, 0x31);
+    _mm256_store_ps(out.re.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0)));
+    _mm256_store_ps(out.im.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1)));
+}
+
+/// The sum of columns, each times its tap.
+ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int count) {
+    ComplexLanes sum{};
+    for (int t = 0; t < count; ++t) {
+        const ComplexLanes z = columns[t];
+        const float tap = taps[t];
+        for (int lane = 0; lane < lanes; ++lane) {
+            sum.re[lane] = std::fma(tap, z.re[lane], sum.re[lane]);
+            sum.im[lane] = std::fma(tap, z.im[lane], sum.im[lane]);
+        }
+    }
+    return sum;
+}
+
+Lanes not_negative(const Lanes& values) {
+    Lanes out;
+    for (int lane = 0; lane < lanes; ++lane)
+        out[lane] = std::max(values[lane], 0.0F);
+    return out;
+}
+
+}  // namespace
+
+SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines) {
+    const double low = *std::ranges::min_element(beam_sines);
+    const double high = *std::ranges::max_element(beam_sines);
+    const auto beams = static_cast<int>(beam_sines.size());
+    SineGrid grid;
+    grid.step = 1.0 / (3.0 * array.wavelengths);
+    // Equally spaced beams lie on columns, if these are fine enough.
+    const double spacing = beams > 1 ? (high - low) / (beams - 1) : 0.0;
+    bool even = beams > 1;
+    for (int j = 0; j < beams; ++j)
+        even = even && std::fabs(beam_sines[j] - (low + spacing * j)) < 1e-6 * spacing;
+    if (even) {
+        const double parts = std::ceil(spacing * array.wavelengths / 0.7);
+        grid.step = spacing / parts;
+    }
+    grid.first = low - margin * grid.step;
+    grid.columns = static_cast<int>(std::ceil((high - low) / grid.step - 1e-6)) + 1 + 2 * margin;
+    return grid;
+}
+
+Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
+                       const ElementsConfig& element_errors)
+    : powers_(powers),
+      grid_(sine_grid(array, beam_sines)),
+      fourier_(transform_size(grid_.columns + gap)) {
+    const int size = fourier_.size();
+    const double elements = std::min(size * grid_.step * array.wavelengths, size - 1.0);
+    Complexes weights = element_weights(array, elements);
+    add_element_errors(array, element_errors, elements, weights);
+    if (powers) {
+        weights = correlated(weights);
+        // The transform has at most as many elements as its size.
+        const int excess = (static_cast<int>(weights.size()) - size + 1) / 2;
+        if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
+    }
+    const int reach = static_cast<int>(weights.size()) / 2;
+    double in_columns = 0.0;
+    double between = 0.0;
+    double noise = 0.0;
+    for (int k = -reach; k <= reach; ++k) {
+        // An echo between two columns is shared by both, which multiplies by a triangle's
+        // transform; the weight undoes it.
+        const double triangle = sinc(static_cast<double>(k) / size);
+        const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
+        weights_.push_back({.re = static_cast<float>(weight.real()),
+                            .im = static_cast<float>(weight.imag()),
+                            .index = (k + size) % size,
+                            .noise_scale = static_cast<float>(triangle * triangle)});
+        noise += std::norm(weights[k + reach]);
+        in_columns += std::norm(weight);
+        between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
+    }
+    scalloping_gain_ = static_cast<float>(between / in_columns);
+    // Amplitudes between columns: the mean power over all positions becomes that of the pattern.
+    const auto level = static_cast<float>(powers ? 1.0 : std::sqrt(noise / between));
+    for (Weight& weight : weights_) {
+        weight.re *= level;
+        weight.im *= level;
+        weight.noise_scale /= level;
+    }
+    // The power of noise in a beam is the sum over elements and both parts.
+    unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
+
+    bool on_columns = true;
+    for (const double sine : beam_sines) {
+        const double at = (sine - grid_.first) / grid_.step;
+        on_columns = on_columns && std::fabs(at - std::round(at)) < 1e-4;
+    }
+    taps_ = on_columns ? 1 : max_taps;
+    for (const double sine : beam_sines) {
+        const double at = (sine - grid_.first) / grid_.step;
+        const int first = on_columns ? static_cast<int>(std::round(at))
+                                     : static_cast<int>(std::floor(at)) - max_taps / 2 + 1;
+        first_tap_.push_back(first);
+        double sum = 0.0;
+        std::vector<double> taps;
+        for (int t = 0; t < taps_; ++t) {
+            const double distance = first + t - at;
+            taps.push_back(on_columns ? 1.0 : sinc(distance) * window(distance / (0.5 * max_taps)));
+            sum += taps.back();
+        }
+        for (const double tap : taps)
+            tap_.push_back(static_cast<float>(tap / sum));
+    }
+}
+
+Beamformer::Scratch::Scratch(const Beamformer& beams)
+    : data(beams.fourier_.size()), spare(beams.fourier_.size()) {}
+
+ElementNoiseOfPing Beamformer::noise_of_ping(const ElementNoise& levels, PhiloxKey key) const {
+    // One counter serves two elements.
+    const int pairs = (elements() + 1) / 2;
+    const NoiseChannels channels{.firsts = pairs, .seconds = elements() - pairs};
+    return {.levels = levels, .drawn = FilteredNoise(channels, levels.taps, key)};
+}
+
+/// Adds the noise of the bins `row` to `row` + 7.
+void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const {
+    noise.drawn.go_to(row);
+    const float* const row_sigma = noise.levels.row_sigma.data() + row;
+    const int elements = this->elements();
+    for (int e = 0; e < elements; ++e) {
+        const ComplexLanes drawn = noise.drawn.of(e);
+        ComplexLanes z = scratch.data[weights_[e].index];
+        const float scale = weights_[e].noise_scale;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float sigma = row_sigma[lane] * scale;
+            z.re[lane] = std::fma(sigma, drawn.re[lane], z.re[lane]);
+            z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
+        }
+        scratch.data[weights_[e].index] = z;
+    }
+}
+
+void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+                      Lanes* out) const {
+    ComplexLanes* const data = scratch.data.data();
+    const int size = fourier_.size();
+    if (grid) {
+        for (int c = 0; c < grid_.columns; ++c)
+            load_bins(grid->column(c) + static_cast<std::ptrdiff_t>(2) * row, data[c]);
+        std::fill(data + grid_.columns, data + size, ComplexLanes{});
+        fourier_.forward(data, scratch.spare.data());
+    } else {
+        std::fill(data, data + size, ComplexLanes{});
+    }
+    if (noise) add_noise(*noise, row, scratch);
+
+    // The transform has more elements than the aperture; the others receive nothing.
+    const auto reach = static_cast<int>(weights_.size() / 2);
+    std::fill(data + reach + 1, data + size - reach, ComplexLanes{});
+    for (const Weight& w : weights_) {
+        const ComplexLanes z = data[w.index];
+        const float re = w.re;
+        const float im = w.im;
+        ComplexLanes weighted;
+        for (int lane = 0; lane < lanes; ++lane) {
+            weighted.re[lane] = z.re[lane] * re - z.im[lane] * im;
+            weighted.im[lane] = z.re[lane] * im + z.im[lane] * re;
+        }
+        data[w.index] = weighted;
+    }
+    fourier_.backward(data, scratch.spare.data());
+
+    for (int j = 0; j < beams(); ++j) {
+        const ComplexLanes* const from = data + first_tap_[j];
+        const float* const tap = tap_.data() + static_cast<std::ptrdiff_t>(j) * taps_;
+        ComplexLanes z = taps_ == 1 ? from[0] : interpolated(from, tap, taps_);
+        Lanes power;
+        for (int lane = 0; lane < lanes; ++lane)
+            power[lane] = std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
+        out[j] = powers_ ? not_negative(z.re) : power;
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "input/mission/instrument.h"
+#include "simulate/calibrated/signal/echo_grid.h"
+#include "simulate/calibrated/signal/filtered_noise.h"
+#include "simulate/calibrated/signal/fourier.h"
+#include "simulate/calibrated/signal/line_array.h"
+
+namespace sonarsim {
+
+/// Noise of the receiver, before its beams are formed.
+struct ElementNoise {
+    /// [range bins, to a multiple of 8] real and imaginary part each, per element.
+    std::vector<float> row_sigma;
+    std::vector<float> taps{1.0F};  ///< the filter along range, by noise_taps()
+};
+
+/// The noise of one ping at the elements.
+struct ElementNoiseOfPing {
+    ElementNoise levels;
+    FilteredNoise drawn;
+};
+
+/// Forms the beams of a line array. The Fourier transform of a grid of sines is the signal over the
+/// array's aperture, one value per element. Each is weighted, its noise is added, and it is
+/// transformed back. Beams between the columns of the grid are interpolated.
+class Beamformer {
+  public:
+    /// `beam_sines` are the sines of the beams' middles. `powers`: the grid holds powers, and the
+    /// weights are those of the squared pattern.
+    Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
+               const ElementsConfig& elements = {});
+
+    const SineGrid& grid() const { return grid_; }
+    int beams() const { return static_cast<int>(first_tap_.size()); }
+    int elements() const { return static_cast<int>(weights_.size()); }
+    /// Scalloping correction: mean power over positions between two columns / power in a column.
+    float scalloping_gain() const { return scalloping_gain_; }
+    /// The sigma of the elements for a noise of power 1 in a beam.
+    float element_sigma_of_unit() const { return unit_sigma_; }
+
+    struct Scratch {
+        explicit Scratch(const Beamformer& beams);
+        std::vector<ComplexLanes> data, spare;
+    };
+    ElementNoiseOfPing noise_of_ping(const ElementNoise& levels, PhiloxKey key) const;
+    /// Forms the beams of 8 bins from `row` on: `out` [beams][8], the power of each. Without a grid
+    /// there are no echoes. `noise` may be null.
+    void form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+              Lanes* out) const;
+
+  private:
+    static constexpr int max_taps = 8;
+    struct Weight {
+        float re, im;
+        int index;          ///< element of the transform
+        float noise_scale;  ///< cancels, for noise, the interpolation correction, which applies to
+                            ///< echoes only
+    };
+
+    void add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const;
+
+    bool powers_;
+    SineGrid grid_;
+    Fourier fourier_;
+    std::vector<Weight> weights_;
+    int taps_ = 1;
+    std::vector<int> first_tap_;  ///< [beams]
+    std::vector<float> tap_;      ///< [beams, taps]
+    float scalloping_gain_ = 1.0F;
+    float unit_sigma_ = 0.0F;
+};
+
+/// The grid on which the beams of an array are formed.
+SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines);
+
+}  // namespace sonarsim

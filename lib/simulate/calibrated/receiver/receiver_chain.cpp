@@ -1,0 +1,178 @@
+#include "simulate/calibrated/receiver/receiver_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/elementary.h"
+#include "core/lanes.h"
+#include "core/random.h"
+#include "core/units.h"
+#include "simulate/calibrated/equation/bottom.h"
+#include "simulate/calibrated/equation/instrument_levels.h"
+#include "simulate/calibrated/signal/decibel.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The ringing falls by 10 dB in each `ring_down_m`.
+void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image) {
+    std::vector<float> ringing;
+    for (int row = 0; row < rows.rows; ++row) {
+        const double range_m = rows.range_min_m + (row + 0.5) * rows.bin_m;
+        const double level_db = receiver.ring_down_db - 10.0 * range_m / receiver.ring_down_m;
+        if (level_db < -60.0) break;  // a millionth of the noise
+        ringing.push_back(rows.noise[row] * static_cast<float>(power_of_db(level_db)));
+    }
+    add_to_rows(ringing, rows, image);
+}
+
+void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
+                      std::span<float> image) {
+    std::vector<float> gains(rows.beams);
+    for (int beam = 0; beam < rows.beams; ++beam) {
+        const double off = (2.0 * beam + 1.0) / rows.beams - 1.0;  // the middle of the fan: 0
+        gains[beam] = static_cast<float>(
+            power_of_db(beam_gain_db(receiver, beam, draws) - receiver.edge_loss_db * off * off));
+    }
+    for (std::size_t first = 0; first < image.size(); first += gains.size()) {
+        for (std::size_t beam = 0; beam < gains.size(); ++beam)
+            image[first + beam] = std::min(gains[beam] * image[first + beam], max_value);
+    }
+}
+
+/// Foreign pulses begin by a Poisson process, have exponential powers and last as long as the
+/// pulse. Each bin and beam of one has a draw of its own.
+void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
+                      std::span<float> image) {
+    const double window_s = rows.rows * rows.bin_s;
+    const double mean_gap = 1.0 / (receiver.interference_per_s * window_s);
+    const auto level = static_cast<float>(power_of_db(receiver.interference_db));
+    double at = 0.0;  // in windows
+    for (std::uint32_t pulse = 0;; ++pulse) {
+        const PhiloxBlock draw = philox({pulse, 0, 0, 1}, key);
+        at -= mean_gap * static_cast<double>(natural_log(unit_float(draw.x0)));
+        if (at >= 1.0) return;
+        const float power = -level * natural_log(unit_float(draw.x1));
+        const int first = static_cast<int>(at * rows.rows);
+        const int last = std::min(rows.rows, first + rows.pulse_bins);
+        for (int row = first; row < last; ++row) {
+            float* const values = image.data() + static_cast<std::size_t>(row) * rows.beams;
+            for (int beam = 0; beam < rows.beams; ++beam) {
+                const auto cell = static_cast<std::uint32_t>(row * rows.beams + beam);
+                const float speckle = -natural_log(unit_float(philox({cell, pulse, 0, 2}, key).x0));
+                values[beam] =
+                    std::min(std::fma(rows.noise[row] * power, speckle, values[beam]), max_value);
+            }
+        }
+    }
+}
+
+/// Weakens a whole ping, echoes and noise of the water alike, with the probability `loss_share`.
+void lose_power(const ReceiverConfig& receiver, PhiloxKey key, std::span<float> image) {
+    const PhiloxBlock draw = philox({0, 0, 0, 0}, key);
+    if (static_cast<double>(unit_float(draw.x0)) > receiver.loss_share) return;
+    const double loss_db =
+        -receiver.loss_db * static_cast<double>(natural_log(unit_float(draw.x1)));
+    const auto gain = static_cast<float>(power_of_db(-loss_db));
+    for (float& value : image)
+        value *= gain;
+}
+
+// The smallest power for the logarithm: it is a normal float, and every companding makes it 0.
+constexpr float min_power = 1e-37F;
+
+/// The function from the natural logarithm of the power, at most 0, to a value in [0, 1].
+struct Law {
+    bool logarithmic;
+    float factor;
+};
+
+Law law_of(const ReceiverConfig& receiver) {
+    switch (receiver.companding) {
+        case Companding::log:
+            return {true, static_cast<float>(10.0 / (ln_10 * receiver.dynamic_range_db))};
+        case Companding::linear:
+            return {false, 0.5F};
+        default:
+            return {false, static_cast<float>(0.5 * receiver.gamma)};
+    }
+}
+
+// A tail this far below the echo in the same bin changes it by at most a grey, and is left out.
+constexpr float negligible = 0.003F;
+
+}  // namespace
+
+void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image) {
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        for (float& value : image.subspan(row * rows.beams, rows.beams))
+            value = std::min(value + values[row], max_value);
+    }
+}
+
+double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
+    const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
+    const std::uint32_t word = philox({static_cast<std::uint32_t>(beam), 0, 0, 0}, key).x0;
+    return receiver.beam_gain_db * normal_pair(word).first;
+}
+
+void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
+                std::span<float> image) {
+    if (receiver.loss_share > 0.0) lose_power(receiver, draws.of(stream_named("losses")), image);
+    if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
+    if (receiver.interference_per_s > 0.0)
+        add_interference(receiver, rows, draws.of(stream_named("interference")), image);
+    if (receiver.beam_gain_db > 0.0 || receiver.edge_loss_db > 0.0)
+        apply_beam_gains(receiver, rows, draws, image);
+}
+
+std::vector<std::uint16_t> companded(std::span<const float> powers,
+                                     const ReceiverConfig& receiver) {
+    const Law law = law_of(receiver);
+    const auto greatest = static_cast<float>((1 << receiver.bits) - 1);
+    const auto offset = static_cast<float>(receiver.offset);
+    std::vector<std::uint16_t> out(powers.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const float power = std::min(std::max(powers[i], min_power), 1.0F);
+        const float logarithm_of_power = std::min(natural_log(power), 0.0F);
+        const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
+                                            : exp_neg(-law.factor * logarithm_of_power);
+        const float above = std::max(value - offset, 0.0F);
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
+    }
+    return out;
+}
+
+Reverberation::Reverberation(const ReceiverConfig& receiver, double bin_m, double sound_speed_m_s) {
+    if (!(receiver.reverberation_s > 0.0)) return;
+    share = static_cast<float>(power_of_db(receiver.reverberation_db));
+    const double bin_s = 2.0 * bin_m / sound_speed_m_s;
+    decay = static_cast<float>(power(10.0, -6.0 * bin_s / receiver.reverberation_s));
+}
+
+void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid) {
+    if (!(tail.share > 0.0F)) return;
+    const float gain = (1.0F - tail.decay) * tail.share;
+    const int padded = (grid.rows() + lanes - 1) / lanes * lanes;
+    std::vector<float> powers(static_cast<std::size_t>(padded));
+    for (int c = 0; c < grid.columns(); ++c) {
+        const float* const cells = grid.column(c);
+        for (int row = 0; row < grid.rows(); ++row) {
+            const float re = cells[std::ptrdiff_t{2} * row];
+            const float im = cells[std::ptrdiff_t{2} * row + 1];
+            powers[row] = form == PowerForm::power ? re : std::fma(re, re, im * im);
+        }
+        float reverberant = 0.0F;
+        for (int row = 0; row < grid.rows(); ++row) {
+            const float echo = powers[row];
+            powers[row] = reverberant > negligible * echo ? reverberant : 0.0F;
+            reverberant = std::fma(tail.decay, reverberant, gain * echo);
+        }
+        add_drawn(form, powers, 1.0F, c, key, grid);
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "input/mission/instrument.h"
+#include "simulate/calibrated/speckle/speckle.h"
+#include "simulate/trace/ping.h"
+
+namespace sonarsim {
+
+// The stages of a receiver after its beams and its gain; section 5 of docs/calibrated.md. Each is
+// off by default.
+
+/// The rows of an image in range.
+struct ImageRows {
+    double range_min_m = 0.0;
+    double bin_m = 1.0;
+    double bin_s = 1.0;  ///< two-way time of a bin
+    int pulse_bins = 1;  ///< length of a pulse
+    int rows = 0;
+    int beams = 0;
+    std::span<const float> noise;  ///< [rows] the value of the mean noise
+};
+
+/// Adds values to the bins of the first rows.
+void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image);
+
+/// Adds ringing and foreign pulses, weakens pings, and applies the gains of beams.
+void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
+                std::span<float> image);
+
+/// The gain of a beam, dB, the same in all pings.
+double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws);
+
+/// The integers of `bits` bits that the instrument delivers. The powers are relative to full scale
+/// and clipped at 1. A is the root of a power and M the greatest integer; `offset` times M is
+/// subtracted, down to 0:
+///
+///     gamma     M A^gamma
+///     log       M (1 + 20 log10(A) / dynamic_range_db), 0 below
+///     linear    M A
+std::vector<std::uint16_t> companded(std::span<const float> powers, const ReceiverConfig& receiver);
+
+/// Sound that arrives behind an echo over many paths: in the sonar's housing, among waves, grains
+/// and walls. The energy of this tail is `share` times the echo's, and it falls by 60 dB in T60:
+///
+///     r_k = d r_(k-1) + (1 - d) share p_(k-1),    d = 10^(-6 t / T60), t = 2 dr / c per bin,
+///
+/// with p the power of an echo and r that of the tail, one recursion along range (Kuttruff, Room
+/// Acoustics, for the exponential law).
+struct Reverberation {
+    float share = 0.0F;  ///< 0: none
+    float decay = 0.0F;  ///< d
+
+    Reverberation() = default;
+    Reverberation(const ReceiverConfig& receiver, double bin_m, double sound_speed_m_s);
+};
+
+/// Adds the tails of a grid's echoes, before the pulse. Amplitudes are drawn for each ping.
+void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid);
+
+}  // namespace sonarsim

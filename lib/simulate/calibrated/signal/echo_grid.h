@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "simulate/calibrated/signal/range_response.h"
+
+namespace sonarsim {
+
+/// Columns at equal steps of the sine of the angle to the plane across the array.
+struct SineGrid {
+    double first = 0.0;  ///< sine of column 0
+    double step = 1.0;
+    int columns = 0;
+};
+
+/// The echoes before the receiver: a complex amplitude or, in its real part, a power for every
+/// range bin and every column of a sine grid. A column is contiguous, since echoes come beam by
+/// beam; 8 bins make a cache line.
+class EchoGrid {
+  public:
+    EchoGrid(int rows, int columns);
+
+    int rows() const { return rows_; }
+    int columns() const { return columns_; }
+
+    /// The bins of a column, two floats each.
+    float* column(int c) { return values_.data() + c * stride_ + front; }
+    const float* column(int c) const { return values_.data() + c * stride_ + front; }
+    std::size_t stride() const { return stride_; }
+
+    /// Adds a grid of the same shape.
+    void add(const EchoGrid& more);
+    /// The number of cells that hold an echo.
+    std::size_t occupied() const;
+    /// Convolves every column with the pulse.
+    void convolve_pulse(const RangeTaps& taps);
+
+  private:
+    // One bin before the first takes echoes between the two; seven more fill the cache line.
+    static constexpr std::size_t front = 16;
+
+    int rows_;
+    int columns_;
+    std::size_t stride_;  ///< floats per column
+    std::vector<float> values_;
+};
+
+}  // namespace sonarsim

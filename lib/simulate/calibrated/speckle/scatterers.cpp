@@ -1,0 +1,119 @@
+#include "simulate/calibrated/speckle/scatterers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "simulate/trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Floats = PatchBlock::Array<float>;
+using Words = PatchBlock::Array<std::uint32_t>;
+
+// Greatest length of cells as a share of the resolution, at which contrast is below 1.02.
+constexpr double max_of_resolution = 1.25;
+
+// Scatterers in a resolution cell: amplitudes are about Rayleigh distributed.
+constexpr double scatterers_in_cell = 4.0;
+
+// The number of levels by which cells are larger at normal than at grazing incidence.
+constexpr int steep_levels = 1;
+
+/// The counters of the cells for their random draws.
+void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
+    for (int k = 0; k < count; ++k) {
+        const CellName name = cell_name(block.cell[0][k], block.cell[1][k], block.cell[2][k]);
+        low[k] = name.low;
+        // Levels differ in the exponent of the edge.
+        high[k] = name.high ^ (std::bit_cast<std::uint32_t>(block.edge_m[k]) >> 23) * 0x9E3779B1U;
+    }
+}
+
+/// The two-way phase of each scatterer, in turns. It is computed in double: at 40 m and 2 MHz the
+/// last bit of a float is 0.07 rad.
+void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, double turns_per_m,
+                 Floats& turns) {
+    for (int k = 0; k < count; ++k) {
+        const double edge = block.edge_m[k];
+        const auto way_along = [&](int axis) {
+            const double place = block.cell[axis][k] + static_cast<double>(block.within[axis][k]);
+            return place * edge - sonar.sensor[axis];
+        };
+        const double x = way_along(0);
+        const double y = way_along(1);
+        const double z = way_along(2);
+        const double way = turns_per_m * piece_range(x, y, z);
+        turns[k] = static_cast<float>(way - std::floor(way));
+    }
+}
+
+/// The strengths of scatterers: exponentially distributed.
+void find_strengths(const Words& words, int count, Floats& strength) {
+    for (int k = 0; k < count; ++k)
+        strength[k] = -natural_log(unit_float(words[k]));
+}
+
+}  // namespace
+
+ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
+                               double wavelength_m) {
+    const double greatest = max_of_resolution * resolution_m;
+    const double per_root_range = std::sqrt(resolution_m * width_rad / scatterers_in_cell);
+    const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
+    ScattererCells out;
+    out.levels = 1;
+    double edge = greatest;
+    while (edge > least && out.levels < 12) {
+        edge *= 0.5;
+        ++out.levels;
+    }
+    out.levels += steep_levels;
+    out.min_edge_m = static_cast<float>(edge);
+    out.edge_per_root_range = static_cast<float>(per_root_range);
+    out.greatest_depth_m = static_cast<float>(greatest);
+    out.width_rad = static_cast<float>(width_rad);
+    out.turns_per_m = 2.0 / wavelength_m;
+    return out;
+}
+
+void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
+    const Eigen::Matrix3f& R = sonar.R_world_sensor;
+    const Eigen::Vector3f s = sonar.sensor.cast<float>();
+    const auto place = [&](int axis, Floats& to) {
+        const float rx = R(axis, 0);
+        const float ry = R(axis, 1);
+        const float rz = R(axis, 2);
+        const float base = s[axis];
+        for (int k = 0; k < count; ++k) {
+            to[k] = std::fma(rx, pieces.x[k],
+                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
+        }
+    };
+    place(0, out.x);
+    place(1, out.y);
+    place(2, out.z);
+}
+
+void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
+                     const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
+                     Amplitudes& out) {
+    Floats turns;
+    Words for_strength, for_phase;
+    const int count = echoes.count;
+    name_cells(block, count, for_strength, for_phase);
+    philox_pairs(for_strength.data(), for_phase.data(), count, key);
+    find_phases(block, count, sonar, cells.turns_per_m, turns);
+    Floats strength;
+    find_strengths(for_strength, count, strength);
+    for (int k = 0; k < count; ++k) {
+        const float amplitude = std::sqrt(echoes.power[k] * strength[k]);
+        const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);
+        out.re[k] = amplitude * phase.cos;
+        out.im[k] = amplitude * phase.sin;
+    }
+}
+
+}  // namespace sonarsim
