@@ -64,8 +64,6 @@ Pose looking_down(double height_m, double pitch_deg) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("labels");
-
 TEST_CASE("annotations: the azimuth of an object astern, in a full turn") {
     for (const float y : {0.0F, 0.4F, -0.4F}) {
         CAPTURE(y);
@@ -176,5 +174,3 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
     CHECK(partly_hidden > 5);
     CHECK(both / either > 0.97);
 }
-
-TEST_SUITE_END();

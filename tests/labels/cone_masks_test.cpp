@@ -125,8 +125,6 @@ double decibels_in(const std::vector<int>& bins, int shift, const std::vector<fl
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(test::sanitized)) {
     Uniform draw(7);
     std::array<Sonar, spacings.size()> sonars;
@@ -182,4 +180,3 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
     }
     CHECK(measured > 450);
 }
-TEST_SUITE_END();

@@ -32,7 +32,6 @@ Sums sums_of_images(const TracedPing& traced, const Sonar& sonar, const Scene& s
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
 TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's samples cover") {
     Uniform draw(27);
     const Sonar sonar = wide_fan(spacings[0]);
@@ -179,5 +178,3 @@ TEST_CASE("cone labels: the shadow of a large face has no holes and ends where i
         }
     }
 }
-
-TEST_SUITE_END();

@@ -28,8 +28,6 @@ const Pose down{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("labels: the elevation of a floor is that of its range") {
     // At height H over a plane, level, straight ahead: sin(theta) = -H / r. Over a bin of width b
     // theta spreads evenly over b d(theta)/dr, a standard deviation of that over sqrt(12).
@@ -166,5 +164,3 @@ TEST_CASE("labels: surface of the bottom has the same height with and without a 
         CHECK(of_wall > 20);
     }
 }
-
-TEST_SUITE_END();

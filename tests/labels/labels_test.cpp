@@ -27,8 +27,6 @@ std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objec
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     // The panel covers the azimuths up to atan(0.5 / 3) at 3 m; the wall stands at 6 m, |y| < 2.
     Scene scene = empty_scene();
@@ -189,5 +187,3 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
         }
     }
 }
-
-TEST_SUITE_END();

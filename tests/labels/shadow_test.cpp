@@ -51,8 +51,6 @@ Scene rippled_floor(Uniform& draw) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("labels: the shadows of a sea floor are those that rays through all surfaces find" *
           doctest::skip(sanitized)) {
     SonarConfig imaging = small_imaging();
@@ -166,5 +164,3 @@ TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") 
         }
     }
 }
-
-TEST_SUITE_END();

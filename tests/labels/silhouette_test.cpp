@@ -34,8 +34,6 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
-TEST_SUITE_BEGIN("ping");
-
 TEST_CASE("silhouette: a piece without visible surface of its object is its mirror image") {
     const DrawnIds drawn({"11.11..", "11.11.2", ".......", "..33...", "..33..."});
     const DrawnIds visible({"1......", "..2....", ".......", "......3", "......."});
@@ -138,5 +136,3 @@ TEST_CASE("silhouette: an object has the shadow behind it") {
     CHECK(object.text(with_shadows(object.frame, object.ids, far.ids, of_all)) ==
           object.text(object.ids));
 }
-
-TEST_SUITE_END();
