@@ -11,7 +11,9 @@ import unittest
 
 import numpy as np
 import tool
+from PIL import Image, TiffImagePlugin
 from sonarsim.data import middles, moved, open_dataset
+from sonarsim.export import holoocean
 
 TANK = tool.ROOT / "scenes/tank.glb"
 READER = ("@mcap/core@2", "@foxglove/rosmsg@5", "@foxglove/rosmsg2-serialization@3")
@@ -152,6 +154,31 @@ class Pings(tool.ToolTest):
             done = tool.run("import_poses", cut, "--out", self.folder / "none.tum", "--topic", topic)
             self.assertRegex(done.stderr, f"^sonarsim import-poses: [^\n]*cut.mcap: [^\n]*{text}[^\n]*\n$")
             self.assertEqual((done.returncode, (self.folder / "none.tum").exists()), (2, False))
+
+    def test_heights_of_a_map_are_those_of_the_world(self):
+        """By the rule of docs/scenes.md: the value times height_scale plus height_offset_m, and the map less its origin."""
+        source, out = self.folder / "map.tif", self.folder / "heights.tif"
+        depth = np.arange(12, dtype=np.float32).reshape(3, 4)
+        depth[1, 2] = -9999.0
+        rule = {"pixel_m": "auto", "origin_m": [500.0, 90.0], "height_scale": -2.0, "height_offset_m": 1.0}
+        for keys, half in (((), 0.0), ((1, 1, 0, 1, 1025, 0, 1, 2), 1.0)):
+            info = TiffImagePlugin.ImageFileDirectory_v2()
+            info[33550], info[33922], info[42113] = (2.0, 2.0, 0.0), (0.0, 0.0, 0.0, 501.0, 100.0, 0.0), "-9999"
+            info.tagtype[33550] = info.tagtype[33922] = 12
+            if keys:
+                info[34735], info.tagtype[34735] = keys, 3
+            Image.fromarray(depth).save(source, tiffinfo=info)
+            holoocean.write_heights(out, source, rule)
+            with Image.open(out) as image:
+                np.testing.assert_array_equal(np.array(image), np.where(depth < 0, np.nan, 1.0 - 2.0 * depth))
+                self.assertEqual(image.tag_v2[33550][:2], (2.0, 2.0))
+                self.assertEqual(image.tag_v2[33922][:5], (0.0, 0.0, 0.0, 1.0 - half, 10.0 + half))
+        Image.fromarray(depth).save(source)
+        with self.assertRaisesRegex(ValueError, "has no tags of its place"):
+            holoocean.write_heights(out, source, rule)
+        holoocean.write_heights(out, source, {**rule, "pixel_m": 3.0, "origin_m": [0.0, 0.0]})
+        with Image.open(out) as image:
+            self.assertEqual(image.tag_v2[33922][3:5], (0.0, 9.0))
 
     def test_mistakes(self):
         for words, text in ((("points", "--sensor", "sss"), "has no ping of an imaging or profiling sonar"),

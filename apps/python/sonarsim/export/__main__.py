@@ -52,7 +52,7 @@ def parse(arguments):
     add("--licence", default="unknown", metavar="ID", help="of hf: the licence of the card, as in cc-by-4.0")
     add("--whole", action="store_true", help="of points: one cloud of all pings of a sonar")
     add("--clean", action="store_true", help="of holoocean: images without noise")
-    add("--mesh", metavar="FILE", help="of holoocean: the .glb of the scene, written with z up")
+    add("--mesh", metavar="FILE", help="of holoocean: the .glb or heightmap of the scene, written with z up")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
     add("--image", choices=("shown", "raw"), default="shown", help="of these sonars pictures for people, or the "
         "instrument's values")

@@ -9,6 +9,7 @@ import pickle
 import struct
 
 import numpy as np
+from PIL import Image, TiffImagePlugin
 
 from ..command import naming
 from ..data import DataError, moved, own_file
@@ -39,7 +40,7 @@ def write(folder, dataset, sensors, options):
         if (dataset.folder / "seabed/heights.tif").is_file():
             place(own, "heights.tif", own_file(dataset.folder, "seabed/heights.tif"))
         if options.mesh:
-            write_mesh(own / "mesh.glb", pathlib.Path(options.mesh), dataset, mission["scene"])
+            write_surface(own, pathlib.Path(options.mesh), dataset, mission["scene"])
         yield f"{sensor.name}: {len(sensor)} states, {name} of {image.shape[0]} ranges x {image.shape[1]} azimuths"
 
 
@@ -61,11 +62,41 @@ def config_of(sensor, mission):
             "ds_factor": 1.0, "simple_denoise": False, **sonar}     # two keys of AONeuS
 
 
-def write_mesh(path, source, dataset, scene):
-    """A .glb of the scene with its coordinates turned into those of the world: z up, in metres."""
+def write_surface(folder, source, dataset, scene):
+    """A file of the scene in the frame of the world: scene.file as mesh.glb, or scene.heightmap as heights.tif."""
     data = source.read_bytes()
     if hashlib.sha256(data).hexdigest() not in [one["sha256"] for one in dataset.description["inputs"]]:
-        raise ValueError(f"{source}: is not a file that this mission read; --mesh takes its scene.file")
+        raise ValueError(f"{source}: is not a file that this mission read; --mesh takes its scene.file or its heightmap")
+    if data[:4] in (b"II*\0", b"MM\0*") and scene.get("heightmap"):
+        write_heights(folder / "heights.tif", source, scene["heightmap"])
+    else:
+        write_mesh(folder / "mesh.glb", source, data, scene)
+
+
+def write_heights(path, source, rule):
+    """A GeoTIFF of heights in metres of the world. ValueError for one whose place is not in its tags."""
+    with Image.open(source) as image:
+        tags, z = dict(image.tag_v2), np.array(image, np.float64)
+    pixel, no_data = rule["pixel_m"], tags.get(42113)
+    if pixel == "auto" and not {33550, 33922} <= tags.keys():
+        raise ValueError(f"{source}: has no tags of its place, and --mesh takes no world file")
+    scale = (pixel, pixel, 0.0) if pixel != "auto" else tags[33550]
+    row, column, west, north = (tags[33922][k] for k in (1, 0, 3, 4)) if pixel == "auto" else (0, 0, 0.0, len(z) * pixel)
+    if pixel == "auto" and (1025, 0, 1, 2) in zip(*[iter(tags.get(34735, ()))] * 4):
+        west, north = west - scale[0] / 2, north + scale[1] / 2     # the tie point is the centre of a pixel
+    if no_data is not None:
+        z[z == float(no_data.strip("\0 "))] = np.nan
+    info = TiffImagePlugin.ImageFileDirectory_v2()
+    for tag, values in ((33550, scale), (33922, (column, row, 0.0, west - rule["origin_m"][0], north - rule["origin_m"][1], 0.0))):
+        info[tag], info.tagtype[tag] = tuple(map(float, values)), 12
+    info[42113] = "nan"
+    z = z * rule["height_scale"] + rule["height_offset_m"]
+    with naming(path):
+        Image.fromarray(z.astype(np.float32)).save(path, "TIFF", tiffinfo=info)
+
+
+def write_mesh(path, source, data, scene):
+    """A .glb of the scene with its coordinates turned into those of the world: z up, in metres."""
     if data[:4] != b"glTF":
         raise ValueError(f"{source}: is not a .glb file, and --mesh takes no other")
     size = struct.unpack_from("<I", data, 12)[0]
