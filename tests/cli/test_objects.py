@@ -124,7 +124,25 @@ def silhouettes(bodies):
         bin_, beam = int((r[k] - 0.8) / 0.01), int(across[k])
         if abs(np.degrees(np.arcsin(at[k, 2] / r[k]))) < 20 and 0 <= bin_ < BINS and 0 <= beam < BEAMS:
             seen[list(bodies)[owner[k]]][bin_, beam] = True
-    return {name: filled(mask) for name, mask in seen.items()}
+    return {name: convex(filled(mask)) for name, mask in seen.items()}
+
+
+def convex(mask):
+    """The convex hull, in the plane of the fan, of a mask [range, beam] that covers at least 0.7 of it, else the mask."""
+    bins, beams = np.indices(mask.shape)
+    angle, r = np.radians((beams + 0.5) / BEAMS * 60 - 30), 0.8 + (bins + 0.5) * 0.01
+    plane = np.stack([r * np.sin(angle), r * np.cos(angle)], -1)
+    corners = []
+    for points in (sorted(map(tuple, plane[mask])), sorted(map(tuple, plane[mask]), reverse=True)):
+        chain = []
+        for point in points:
+            while len(chain) > 1 and np.cross(np.subtract(chain[-1], chain[-2]), np.subtract(point, chain[-1])) <= 0:
+                chain.pop()
+            chain.append(point)
+        corners += chain[:-1]
+    ends = zip(np.array(corners), np.roll(corners, -1, 0))
+    hull = np.all([np.cross(end - begin, plane - begin) > -1e-9 for begin, end in ends], 0)
+    return hull if mask.sum() >= 0.7 * hull.sum() else mask
 
 
 def label(mask, corners):
