@@ -20,13 +20,10 @@
 // itself and still checks everything that it calls.
 #ifdef SONARSIM_THREAD_SANITIZER
 #define SONARSIM_CALLED_BY_TBB __attribute__((no_sanitize("thread")))
-#else
-#define SONARSIM_CALLED_BY_TBB
-#endif
-
-#ifdef SONARSIM_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
+#else
+#define SONARSIM_CALLED_BY_TBB
 #endif
 
 namespace sonarsim {

@@ -1,9 +1,5 @@
 #include "run/report/report.h"
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -13,7 +9,7 @@
 #include "core/text.h"
 #include "input/scene/copies.h"
 #include "run/checks/measured_error.h"
-#include "simulate/assembly/assemble.h"
+#include "run/job/parallel.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/view.h"
@@ -254,15 +250,12 @@ std::string unsupported(const Setting& setting, const Assembly& assembly) {
 Report make_report(const Mission& mission, const Assembly& assembly,
                    std::span<const Setting> settings, const ReportOptions& options,
                    const ReportProgress& progress) {
-    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(threads);
     Report report;
     report.mission = mission.name;
     report.triangles = all_triangles(assembly.scene);
-    report.threads = threads;
     ::getloadavg(&report.load, 1);
-    arena.execute([&] {
+    on_threads(options.threads, [&](int threads) {
+        report.threads = threads;
         const Caster caster(assembly.scene);
         Comparison comparison{PingSet(mission, assembly, options.poses), caster, options};
         comparison.options.threads = threads;
