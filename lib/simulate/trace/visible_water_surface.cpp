@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
+#include "simulate/trace/bounce_path.h"
 
 namespace sonarsim {
 
@@ -20,8 +21,6 @@ constexpr double min_cells = 16.0;
 constexpr float max_range_share = 1.0F / 8.0F;
 constexpr float max_bins = 64.0F;
 constexpr int max_cuts = 7;
-
-constexpr std::uint32_t no_instance = 0xFFFFFFFFU;
 
 /// A rectangle of azimuth and elevation.
 struct Cell {
