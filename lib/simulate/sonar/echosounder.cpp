@@ -4,15 +4,6 @@
 
 namespace sonarsim {
 
-namespace {
-
-/// The range at which the bottom is detected.
-void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
-    json["depth_m"] = number_or_null(detected_depth(view.sonar, view.ping));
-}
-
-}  // namespace
-
 /// An echosounder (section VI): one beam, a cone of half-angle opening / 2. Its range noise does
 /// not fade. Looks down.
 KindOfSonar echosounder_kind() {
@@ -30,14 +21,15 @@ KindOfSonar echosounder_kind() {
                      .opening = true},
             .shape = ViewShape::cone,
             .looks_down = true,
-            .gain = 1.0,
             .range_noise_fades = false,
-            .has_images = false,
             .record = {.name = "echogram",
                        .upright = true,
                        .pictures = RecordPictures::strip,
                        .style = echogram_style},
-            .measure = measure_depth};
+            // The range at which the bottom is detected.
+            .measure = [](const PingView& view, nlohmann::ordered_json& json) {
+                json["depth_m"] = number_or_null(detected_depth(view.sonar, view.ping));
+            }};
 }
 
 }  // namespace sonarsim

@@ -14,7 +14,6 @@ KindOfSonar imaging_kind() {
             .shape = ViewShape::fan,
             .looks_down = false,
             .gain = 0.5,
-            .range_noise_fades = true,
             .has_images = true,
             .finish = add_azimuth};
 }

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -67,10 +65,10 @@ struct PingView {
 struct KindOfSonar {
     SonarKeys keys;  ///< its name, its defaults and the keys that a mission may set
     ViewShape shape;
-    bool looks_down;         ///< the default mount: down with z along the bow, or forward
-    double gain;             ///< m of Eq. 12
-    bool range_noise_fades;  ///< echoes that range noise delays are weaker, Eq. 8
-    bool has_images;         ///< a ping is an image: range by azimuth
+    bool looks_down;                ///< the default mount: down with z along the bow, or forward
+    double gain = 1.0;              ///< m of Eq. 12
+    bool range_noise_fades = true;  ///< echoes that range noise delays are weaker, Eq. 8
+    bool has_images = false;        ///< a ping is an image: range by azimuth
     RecordShape record = {};
     /// Completes the sonar of common_sonar(); null if nothing is left to do.
     void (*finish)(Sonar& sonar) = nullptr;

@@ -4,15 +4,6 @@
 
 namespace sonarsim {
 
-namespace {
-
-/// The number of beams with a sounding.
-void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
-    json["soundings"] = beams_with_sounding(view.ping);
-}
-
-}  // namespace
-
 /// A multibeam profiling sonar (section V): an imaging sonar with one narrow bin of elevation.
 /// Looks down.
 KindOfSonar profiling_kind() {
@@ -30,11 +21,12 @@ KindOfSonar profiling_kind() {
             .shape = ViewShape::fan,
             .looks_down = true,
             .gain = 0.5,
-            .range_noise_fades = true,
             .has_images = true,
             .record = {.name = "soundings"},
             .finish = add_azimuth,
-            .measure = measure_soundings};
+            .measure = [](const PingView& view, nlohmann::ordered_json& json) {
+                json["soundings"] = beams_with_sounding(view.ping);
+            }};
 }
 
 }  // namespace sonarsim

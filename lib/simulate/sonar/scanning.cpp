@@ -1,4 +1,3 @@
-#include "core/units.h"
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
@@ -13,10 +12,6 @@ void turn_head(Sonar& sonar) {
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
     sonar.azimuth_edges_rad = edges(-half, half, 1);
     sonar.head_angles_rad = scan_angles_rad(sonar.config);
-}
-
-void measure_head(const PingView& view, nlohmann::ordered_json& json) {
-    json["head_angle_rad"] = head_angle_rad(view.sonar, view.pose);
 }
 
 void describe_sweeps(const Sonar& sonar, nlohmann::ordered_json& sensor) {
@@ -47,12 +42,11 @@ KindOfSonar scanning_kind() {
                  .head = true},
         .shape = ViewShape::fan,
         .looks_down = false,
-        .gain = 1.0,
-        .range_noise_fades = true,
-        .has_images = false,
         .record = {.name = "scan", .pictures = RecordPictures::sweeps, .describe = describe_sweeps},
         .finish = turn_head,
-        .measure = measure_head};
+        .measure = [](const PingView& view, nlohmann::ordered_json& json) {
+            json["head_angle_rad"] = head_angle_rad(view.sonar, view.pose);
+        }};
 }
 
 }  // namespace sonarsim
