@@ -2,7 +2,6 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/trace/ping_motion.h"
 #include "support/test.h"
 

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/reference/energy_reference.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -10,7 +10,7 @@
 #include "run/checks/directions.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/setup.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/visibility/view.h"
 

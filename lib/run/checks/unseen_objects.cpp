@@ -7,7 +7,7 @@
 #include "input/scene/copies.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/visibility/view.h"
 

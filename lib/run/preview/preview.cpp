@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -14,7 +13,7 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {

@@ -7,7 +7,7 @@
 
 #include "input/mission/mission.h"
 #include "simulate/assembly/assemble.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

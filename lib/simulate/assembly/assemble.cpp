@@ -21,7 +21,7 @@
 #include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
 #include "simulate/sonar/setup.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "simulate/assembly/poses.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 
 namespace sonarsim {

@@ -3,12 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 
-#include "core/units.h"
 #include "simulate/assembly/placed_files.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

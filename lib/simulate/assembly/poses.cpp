@@ -16,7 +16,7 @@
 #include "input/trajectory/files.h"
 #include "input/trajectory/patterns.h"
 #include "input/trajectory/pose_changes.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "simulate/assembly/assemble.h"
-#include "simulate/ping/form_image.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

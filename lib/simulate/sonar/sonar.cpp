@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "input/mission/ping_draws.h"
-#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
 
 namespace sonarsim {

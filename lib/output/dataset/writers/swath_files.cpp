@@ -13,7 +13,7 @@
 #include "output/format/xtf.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/mosaic.h"
-#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 
