@@ -33,9 +33,8 @@ using Json = nlohmann::ordered_json;
 struct InspectArguments {
     std::filesystem::path scene;
     std::filesystem::path materials;  ///< "": none
-    std::string units;                ///< "": not given, metres
-    std::string up;                   ///< "": not given, y
-    double pixel_m = 0.0;             ///< size of a pixel of a heightmap; 0: the file says it
+    MeshOptions read_as;
+    double pixel_m = 0.0;  ///< size of a pixel of a heightmap; 0: the file says it
     bool as_csv = false;
     double frequency_khz = 400.0;  ///< for a CSV of materials
     LogOptions log;
@@ -146,7 +145,7 @@ std::vector<std::string> questions_about(const InspectArguments& arguments, cons
     std::vector<std::string> questions;
     if (file.heightmap) return questions;
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
-    const std::string units = arguments.units.empty()
+    const std::string units = arguments.read_as.units.empty()
                                   ? unit_question(length_m, file.unit_m, usual_range_m, long_object)
                                   : "";
     if (!units.empty()) questions.push_back("it is " + units);
@@ -162,11 +161,7 @@ PlacedFile file_of(const InspectArguments& arguments) {
         map.pixel_m = arguments.pixel_m;
         return file_of(map);
     }
-    MeshConfig mesh;
-    mesh.units = chosen(length_units, arguments.units, mesh.units);
-    mesh.up = chosen(up_axes, arguments.up, mesh.up);
-    mesh.up_given = !arguments.up.empty();
-    return file_of(arguments.scene, mesh, {});
+    return file_of(arguments.scene, arguments.read_as.config(), {});
 }
 
 int inspect(const InspectArguments& arguments) {
@@ -227,14 +222,7 @@ void add_inspect(CLI::App& app, int& exit_code) {
             "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights; or a "
             ".csv of materials")
         ->required();
-    command
-        .add_option("--units", arguments->units,
-                    "Unit of the file's lengths, as `units` of a mission (default: m)")
-        ->check(CLI::IsMember(names_of(length_units)));
-    command
-        .add_option("--up", arguments->up,
-                    "Axis of the file that points up, as `up` of a mission (default: y)")
-        ->check(CLI::IsMember(names_of(up_axes)));
+    add_mesh_options(command, arguments->read_as, "m", "y");
     command
         .add_option("--pixel-m", arguments->pixel_m,
                     "Size of a pixel of an image of heights (default: as the file says)")

@@ -54,4 +54,39 @@ Variants load_variants(const MissionOptions& options, const Mission& mission) {
     return variants_of(mission, source_of(options));
 }
 
+namespace {
+
+/// The value of a choice that the command line has checked; `fallback` for "".
+template <class T, std::size_t N>
+T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
+    for (const Choice<T>& choice : choices) {
+        if (choice.name == name) return choice.value;
+    }
+    return fallback;
+}
+
+}  // namespace
+
+MeshConfig MeshOptions::config() const {
+    MeshConfig mesh;
+    mesh.units = chosen(length_units, units, mesh.units);
+    mesh.up = chosen(up_axes, up, mesh.up);
+    mesh.up_given = !up.empty();
+    return mesh;
+}
+
+void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string& usual_units,
+                      const std::string& usual_up) {
+    command
+        .add_option(
+            "--units", options.units,
+            "Unit of the file's lengths, as `units` of a mission (default: " + usual_units + ")")
+        ->check(CLI::IsMember(names_of(length_units)));
+    command
+        .add_option(
+            "--up", options.up,
+            "Axis of the file that points up, as `up` of a mission (default: " + usual_up + ")")
+        ->check(CLI::IsMember(names_of(up_axes)));
+}
+
 }  // namespace sonarsim

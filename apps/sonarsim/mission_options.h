@@ -36,13 +36,15 @@ Mission load(const MissionOptions& options);
 /// The variants of that mission; empty if it has none.
 Variants load_variants(const MissionOptions& options, const Mission& mission);
 
-/// The value of a choice that the command line has checked; `fallback` for "".
-template <class T, std::size_t N>
-T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
-    for (const Choice<T>& choice : choices) {
-        if (choice.name == name) return choice.value;
-    }
-    return fallback;
-}
+/// Options that inspect and new share: how a mesh is read; "": not given.
+struct MeshOptions {
+    std::string units, up;
+
+    MeshConfig config() const;
+};
+
+/// `usual` says what is taken without --units and --up.
+void add_mesh_options(CLI::App& command, MeshOptions& options, const std::string& usual_units,
+                      const std::string& usual_up);
 
 }  // namespace sonarsim

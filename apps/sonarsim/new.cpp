@@ -108,8 +108,8 @@ struct NewArguments {
     fs::path mesh;
     std::string preset;  ///< "": by the size of the mesh
     std::string bed = "sand";
-    std::string units, up;  ///< "": as the mesh seems to be meant
-    fs::path out;           ///< "": NAME.yaml in the current folder
+    MeshOptions read_as;  ///< "": as the mesh seems to be meant
+    fs::path out;         ///< "": NAME.yaml in the current folder
     LogOptions log;
 };
 
@@ -127,26 +127,26 @@ ReadMesh read_as_meant(const NewArguments& arguments) {
     const fs::path& path = arguments.mesh;
     ReadMesh mesh;
     SceneFiles models;
-    mesh.config.units = chosen(length_units, arguments.units, mesh.config.units);
-    mesh.config.up = chosen(up_axes, arguments.up, mesh.config.up);
+    mesh.config = arguments.read_as.config();
     const PlacedFile as_gltf = file_of(path, mesh.config, {});
     mesh.scene = load_scene_geometry(as_gltf, models);
     if (mesh.scene.triangles.empty()) throw InputError({path.string()}, "has no triangles");
     const double length_m = (mesh.scene.bounds_max - mesh.scene.bounds_min).maxCoeff();
-    const std::string unit =
-        arguments.units.empty() ? unit_question(length_m, 1.0, usual_range_m, long_object) : "";
+    const std::string unit = arguments.read_as.units.empty()
+                                 ? unit_question(length_m, 1.0, usual_range_m, long_object)
+                                 : "";
     const std::string up =
-        arguments.up.empty() ? up_question(as_gltf, surface_of(as_gltf, models)) : "";
+        arguments.read_as.up.empty() ? up_question(as_gltf, surface_of(as_gltf, models)) : "";
     if (!unit.empty()) mesh.config.units = LengthUnit::mm;
     if (!up.empty()) mesh.config.up = UpAxis::z;
     if (!unit.empty()) mesh.guesses.push_back("the file is " + unit);
     if (!up.empty()) mesh.guesses.push_back(up);
-    if (up.empty() && arguments.up.empty() && is_mesh_file(path))
+    if (up.empty() && arguments.read_as.up.empty() && is_mesh_file(path))
         mesh.guesses.push_back("y points up; if the file's z does, give --up z");
     if (!unit.empty() || is_mesh_file(path))
-        mesh.keys = ", units: " + (!arguments.units.empty() ? arguments.units
-                                   : unit.empty()           ? "m"
-                                                            : "mm");
+        mesh.keys = ", units: " + (!arguments.read_as.units.empty() ? arguments.read_as.units
+                                   : unit.empty()                   ? "m"
+                                                                    : "mm");
     if (is_mesh_file(path)) mesh.keys += mesh.config.up == UpAxis::y ? ", up: y" : ", up: z";
     mesh.config.up_given = true;
     if (!unit.empty() || !up.empty())
@@ -278,14 +278,7 @@ void add_new(CLI::App& app, int& exit_code) {
                        "An imaging sonar, of configs/sensors or a file (default: an Oculus)");
     command.add_option("--bed", arguments->bed,
                        "The sea bed, of configs/seabeds or a file (default: sand)");
-    command
-        .add_option("--units", arguments->units,
-                    "Unit of the file's lengths, as `units` of a mission (default: a guess)")
-        ->check(CLI::IsMember(names_of(length_units)));
-    command
-        .add_option("--up", arguments->up,
-                    "Axis of the file that points up, as `up` of a mission (default: a guess)")
-        ->check(CLI::IsMember(names_of(up_axes)));
+    add_mesh_options(command, arguments->read_as, "a guess", "a guess");
     command
         .add_option("--out", arguments->out,
                     "The mission (default: NAME.yaml in the current folder)")

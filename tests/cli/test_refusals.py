@@ -221,7 +221,7 @@ WARNED = (
     ({"path.csv": path(step=0.005)}, "W39", "9 of its 9 pings after the first begin before"),
     ({"slab.obj": slab_obj()} | mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}"), "W01",
      "slab.obj stands on its edge with y up and would lie flat with z up: does its z point up? up: z"),
-    (mine_as(MINE.replace("[20, 4, 0.3]}", "[20, 4, 0.3], units: mm}")), "W21", "1 object is below 5 mm across"),
+    (mine_as(MINE.replace("[20, 4, 0.3]}", "[20, 4, 0.3], units: mm}")), "W21", "1 object is not resolved"),
     (mine_as(MINE.replace("[20, 4, 0.3]", "[-45, -45, 0.3]")), "W21", "1 object is not in view"),
     (mine_as(MINE + "\n    - {name: b, file: mine.gltf, scale: 0.5, position_m: [20, 4, 0.3]}"), "W21",
      "'b'; these may lie behind"),

@@ -19,7 +19,8 @@ constexpr std::size_t max_objects = 200;  // the most objects to look for
 constexpr std::size_t max_poses = 20000;  // about the most poses to test for an object
 constexpr std::size_t max_tries = 4;      // the most pings of a sonar to trace for an object
 constexpr std::size_t max_named = 5;
-constexpr double min_object_m = 0.005;  // an object in metres that was read as millimetres
+// A smaller object, which no range bin resolves, is one in metres that was read as millimetres.
+constexpr double min_object_m = 0.005;
 
 /// A sphere around an object; the frame is the world, or its own if it moves.
 struct Extent {
@@ -159,12 +160,15 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
     std::vector<std::string> hidden;
     std::vector<std::string> tiny;
     std::size_t looked_for = 0;
+    double resolved_m = min_object_m;
+    for (const Sonar& sonar : assembly.sonars)
+        resolved_m = std::min(resolved_m, sonar.settings.view.bin_m());
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
         const auto has_seen = [&](const SonarSurvey& sonar) {
             return sonar.visible_m2[instance] > 0.0;
         };
         if (extents[instance].radius < 0.0 || !is_wanted(mission, scene, instance)) continue;
-        if (2.0 * extents[instance].radius < min_object_m) {
+        if (2.0 * extents[instance].radius < resolved_m) {
             tiny.push_back(scene.instances[instance]);
             continue;
         }
@@ -197,8 +201,8 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
          "move these into the view of a sonar, or the trajectory towards them");
     warn(hidden, " in view but not seen",
          "these may lie behind, below or within other surface, or be smaller than a beam");
-    warn(tiny, " below 5 mm across, too small to be seen",
-         "check the units and the scale of these");
+    warn(tiny, " not resolved",
+         "these are smaller than 5 mm and a range bin; check their units and scale");
     return out;
 }
 

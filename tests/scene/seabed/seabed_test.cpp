@@ -91,6 +91,24 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
     CHECK(std::abs(slope) < 4.0 * 0.067 / std::sqrt(squares) + 0.05);
 }
 
+TEST_CASE("neighbouring facets of a rough bed have similar slopes") {
+    // The roughest field correlates by 0.59, the longer ones by more; white heights by -0.5.
+    test::SeabedRule rule = rule_of_size(5.0);
+    rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
+    const Seabed bed = make_seabed(rule);
+    double products = 0.0;
+    double squares = 0.0;
+    for (int row = 0; row < bed.grid.rows; ++row) {
+        const float* const z = &bed.heights[static_cast<std::size_t>(row) * bed.grid.columns];
+        for (int i = 0; i + 2 < bed.grid.columns; ++i) {
+            const double slope = z[i + 1] - z[i];
+            products += slope * (z[i + 2] - z[i + 1]);
+            squares += slope * slope;
+        }
+    }
+    CHECK(products / squares > 0.59);
+}
+
 TEST_CASE("ripples have their length, direction and height" * doctest::skip(test::sanitized)) {
     for (const double angle : {0.4, 2.0}) {
         test::SeabedRule rule = rule_of_size(6.0);

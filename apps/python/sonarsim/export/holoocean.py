@@ -82,7 +82,10 @@ def write_heights(path, source, rule):
         raise ValueError(f"{source}: has no tags of its place, and --mesh takes no world file")
     scale = (pixel, pixel, 0.0) if pixel != "auto" else tags[33550]
     row, column, west, north = (tags[33922][k] for k in (1, 0, 3, 4)) if pixel == "auto" else (0, 0, 0.0, len(z) * pixel)
-    if pixel == "auto" and (1025, 0, 1, 2) in zip(*[iter(tags.get(34735, ()))] * 4):
+    keys = {key: value for key, place, _, value in zip(*[iter(tags.get(34735, ()))] * 4) if place == 0}
+    if keys.get(3076, 9001) != 9001:
+        raise ValueError(f"{source}: is not in metres, and --mesh takes no other unit")
+    if pixel == "auto" and keys.get(1025) == 2:
         west, north = west - scale[0] / 2, north + scale[1] / 2     # the tie point is the centre of a pixel
     if no_data is not None:
         z[z == float(no_data.strip("\0 "))] = np.nan

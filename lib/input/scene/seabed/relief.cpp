@@ -134,8 +134,9 @@ void add_roughness(const BedGrid& grid, const BedRoughnessConfig& roughness, std
     const double exponent = roughness.spectral_exponent;
     const double strength = roughness_strength(roughness.spectral_strength_cm4, exponent);
     if (strength == 0.0) return;
-    // The square of the shortest length of a field, in cells. The slopes of neighbouring facets
-    // correlate by 0.58 in that field; images show single facets where they do not.
+    // The square t of the shortest length of a field, in cells. The slopes of neighbouring facets
+    // correlate by (1 - 1 / (2 t)) exp(-1 / (4 t)) = 0.59 in that field; with less, images show
+    // single facets.
     constexpr double min_t = 1.6;
     constexpr double step = 4.0;
     // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.
