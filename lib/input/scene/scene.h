@@ -31,8 +31,8 @@ struct Material {
     std::optional<double> roughness_mm = {};
     double slope_rms_deg = 10.0;         ///< RMS slope of the facets; 0: no facets
     std::optional<double> wall_mm = {};  ///< thickness of a wall with water behind; empty: solid
-    // The model of sea beds (simulate/calibrated/equation/seafloor_scattering.h), if there is a
-    // grain size or a loss parameter. A value that is empty follows from the grain size.
+    // The model of sea beds (calibrated/equation/seafloor_scattering.h), if there is a grain size
+    // or a loss parameter. A value that is empty follows from the grain size.
     std::optional<double> grain_phi = {};       ///< mean grain size, -log2 of millimetres
     std::optional<double> loss_parameter = {};  ///< imaginary part / real part of the wave number
     std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum
