@@ -122,6 +122,30 @@ TEST_CASE("receiver: foreign pulses come at their rate and with their level") {
     CHECK(std::fabs(energy / (2135.0 * 2.0 * 100.0) - 1.0) < 4.5 * 0.035);
 }
 
+// Pulses of 1 s at 0.2 per second cover a window of 26.7 ms whole or in part with the probability
+// 1 - exp(-0.2 (1 + 0.0267)) = 0.186: 371 of 2,000 pings; 4.5 standard deviations are 78. Nine in
+// ten of these, (1 - 0.0267) / (1 + 0.0267), are covered whole.
+TEST_CASE("receiver: long foreign pulses cover whole pings") {
+    ReceiverConfig receiver;
+    receiver.interference_per_s = 0.2;
+    receiver.interference_s = 1.0;
+    constexpr int rows_count = 50;
+    const std::vector<float> noise(rows_count, 1e-6F);
+    const ImageRows rows{
+        .bin_s = 0.02668 / rows_count, .rows = rows_count, .beams = 1, .noise = noise};
+    int pings = 0;
+    int whole = 0;
+    for (std::uint32_t ping = 0; ping < 2000; ++ping) {
+        std::vector<float> image(rows_count, 0.0F);
+        add_faults(receiver, rows, {1, 2, ping}, image);
+        const auto covered = std::ranges::count_if(image, [](float value) { return value > 0.0F; });
+        pings += covered > 0 ? 1 : 0;
+        whole += covered == rows_count ? 1 : 0;
+    }
+    CHECK(std::abs(pings - 371) < 78);
+    CHECK(whole > 0.9 * pings);
+}
+
 // A share of 0.3 of 4,000 pings is 1,200; 4.5 standard deviations are 130. The mean loss is 6
 // dB.
 TEST_CASE("receiver: a share of the pings is weaker") {
@@ -164,6 +188,9 @@ TEST_CASE("receiver: gains of beams stay") {
                   test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
         }
     }
+    receiver.channel_beams = 3;
+    CHECK(beam_gain_db(receiver, 3, {1, 2, 0}) == beam_gain_db(receiver, 5, {1, 2, 0}));
+    CHECK(beam_gain_db(receiver, 2, {1, 2, 0}) != beam_gain_db(receiver, 3, {1, 2, 0}));
     receiver = {};
     receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
     std::vector<float> image(16, 1.0F);

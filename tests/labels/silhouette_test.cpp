@@ -82,9 +82,15 @@ TEST_CASE("outline: a compact body is convex, an open one is not, a ring at the 
     const DrawnIds hook({"..........", ".1........", ".1........", ".1........", ".1........",
                          ".1........", ".11111111.", ".........."});
     CHECK(hook.text(outlined(hook.frame, hook.ids)) == hook.text(hook.ids));
-    const DrawnIds cut({"1......1", "1......1", "1......1", "11....11", ".111111."});
+    const DrawnIds cut(
+        {".1......1.", ".1......1.", ".1......1.", ".11....11.", "..111111..", ".........."});
     CHECK(cut.text(outlined(cut.frame, cut.ids)) ==
-          Lines{"11111111", "11111111", "11111111", "11111111", ".111111."});
+          Lines{".11111111.", ".11111111.", ".11111111.", ".11111111.", "..111111..",
+                ".........."});
+    // A wall from one side of the picture to another.
+    const DrawnIds wall({".11.........", ".11.........", ".11.........", ".11.........",
+                         ".11.........", ".11.........", ".11111111111", "............"});
+    CHECK(wall.text(outlined(wall.frame, wall.ids)) == wall.text(wall.ids));
 }
 
 /// The ids of a fan's bins whose middles lie in a bar of the plane, along `angle`, at the depth of

@@ -91,6 +91,34 @@ TEST_CASE("contrast: in a full turn the surroundings go on over the seam") {
     CHECK(contrast_of(false, {0, 0, 0, 0}) == test::approx(1.2494).epsilon(1e-4));
 }
 
+// 40 ranges of 13 lines with exponential speckle of the mean 1; behind them noise of the same mean
+// hides the shadow of lines 5 to 7, which is empty up to range 24.
+TEST_CASE("contrast: a shadow ends where it looks like its surroundings") {
+    constexpr int bins = 40;
+    std::mt19937 random(7);
+    std::exponential_distribution<float> speckle(1.0F);
+    const std::vector<std::uint16_t> object(std::size_t{13} * bins, 0);
+    const std::vector<std::uint8_t> is_background{1, 0, 0};
+    double mean = 0.0;
+    for (int trial = 0; trial < 100; ++trial) {
+        std::vector<std::uint16_t> shadow(object.size(), 0);
+        std::vector<float> level(object.size());
+        for (int k = 0; k < std::ssize(level); ++k) {
+            const int line = k / bins;
+            const bool is_shadow = line >= 5 && line <= 7;
+            if (is_shadow) shadow[k] = 1;
+            level[k] = is_shadow && k % bins < 25 ? 0.0F : speckle(random);
+        }
+        const LevelMap map{13, bins, object, shadow, level};
+        const std::vector<std::uint16_t> found = visible_shadows(map, {{0, 1, 0}}, is_background);
+        const auto left = std::ranges::count(found, 1);
+        CHECK(left >= 3 * 25);
+        mean += static_cast<double>(left) / (3 * 100);
+        CHECK(visible_shadows(map, {{0, 0, 1}}, is_background) == object);
+    }
+    CHECK(mean < 28.0);  // ranges; by chance some are dark
+}
+
 TEST_CASE("masks: random pictures come back") {
     std::mt19937 random(3);
     for (int trial = 0; trial < 50; ++trial) {

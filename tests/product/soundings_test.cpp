@@ -133,6 +133,36 @@ TEST_CASE("soundings: noise hides no bottom that stands out of it") {
     CHECK(make_sonar(raised, {}).settings.model->info.mean_noise.empty());
 }
 
+// Gaussian beams over oblique ground: the echo of bin i has the amplitude of its speckle times
+// exp(-((i - c_j) / 8)^2) in beam j, c_j = 40, 50, 60. The axis of beam 1 lies in the middle of bin
+// 50. The logarithm of the ratio of beams 0 and 2 is a line without speckle.
+TEST_CASE("soundings: on oblique ground they lie where both neighbours are equally strong") {
+    SonarConfig config = three_beams().config;
+    config.model = ModelKind::calibrated;
+    const Sonar sonar = make_sonar(config, {});
+    SonarConfig other = config;
+    other.model = ModelKind::paper;
+    const Sonar without_patterns = make_sonar(other, {});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(1e-9, 1.0);
+    double by_middle = 0.0;
+    constexpr int trials = 100;
+    for (int trial = 0; trial < trials; ++trial) {
+        Ping ping = dark(sonar);
+        for (int i = 20; i < 80; ++i) {
+            const double speckle = std::sqrt(-0.1 * std::log(unit(random)));
+            for (int j = 0; j < 3; ++j) {
+                const double off = (i - 40 - 10 * j) / 8.0;
+                ping.intensity[i * 3 + j] = static_cast<float>(speckle * std::exp(-off * off));
+            }
+        }
+        CHECK(std::fabs(find_soundings(sonar, Pose{}, ping)[1].range_m - 5.05) < 1e-3);
+        const double middle = find_soundings(without_patterns, Pose{}, ping)[1].range_m;
+        by_middle += (middle - 5.05) * (middle - 5.05) / trials;
+    }
+    CHECK(std::sqrt(by_middle) > 0.1);  // more than a bin
+}
+
 TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> tenths(-200, 200);

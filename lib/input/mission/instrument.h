@@ -95,12 +95,14 @@ struct ReceiverConfig {
     double offset = 0.0;              ///< subtracted from raw/, as a share of its largest value
     double ring_down_db = 0.0;        ///< at range 0, above the noise; 0: none
     double ring_down_m = 0.1;         ///< range over which it falls by 10 dB
-    double beam_gain_db = 0.0;        ///< standard deviation of the gains of the beams
+    double beam_gain_db = 0.0;        ///< standard deviation of the gains of the channels
+    int channel_beams = 1;            ///< adjacent beams that one channel receives
     double edge_loss_db = 0.0;        ///< loss of the outermost beams
     double reverberation_db = -20.0;  ///< energy of the tail of an echo over the echo's
     double reverberation_s = 0.0;     ///< time in which it falls by 60 dB; 0: none
     double interference_per_s = 0.0;  ///< rate of foreign pulses
     double interference_db = 20.0;    ///< their level above the noise
+    double interference_s = 0.0;      ///< their length; at least that of the own pulse
     double loss_share = 0.0;          ///< pings that are weakened, as by bubbles
     double loss_db = 10.0;            ///< the mean loss of these
 };
@@ -253,12 +255,16 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "foreign pulses per second of reception, at drawn times, in all beams; 0 means none");
     v.number("interference_db", c.interference_db, between(-20, 100),
              "mean level of a foreign pulse above the noise before TVG");
+    v.number("interference_s", c.interference_s, between(0, 1),
+             "length of foreign pulses, at least that of the own; noise of thrusters is long");
     v.number("loss_share", c.loss_share, between(0, 1),
              "share of the pings that are weaker, as by bubbles below a hull");
     v.number("loss_db", c.loss_db, between(0, 60),
              "mean loss of such a ping, exponentially distributed");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
-             "standard deviation of the gains of single beams, which stay from ping to ping");
+             "standard deviation of the gains of channels, which stay from ping to ping");
+    v.number("channel_beams", c.channel_beams, between(1, 4096),
+             "adjacent beams that one channel receives, with one gain");
     v.number("edge_loss_db", c.edge_loss_db, between(0, 30),
              "loss of the outermost beams, from the middle on with the square of their number");
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -80,21 +81,23 @@ std::pair<int, int> bins_within(const Points& hull, const PictureLine& line, int
             static_cast<int>(std::floor(to + rounding))};
 }
 
-/// True if bins of a shape lie at the border of the picture in two places or more: the picture cuts
-/// an open side off.
+/// True if one side of the picture cuts a shape in two places or more: it cuts an open side off.
+/// A wall meets two sides, and what lies behind it is not part of it.
 bool is_cut_open(const MaskFrame& frame, const MaskWindow& shape, std::span<const int> piece) {
-    std::vector<int> places;  // along the border
+    std::array<std::vector<int>, 4> places;  // along each side
     for (const int at : piece) {
         const int line = shape.line + at / shape.bins;
         const int bin = shape.bin + at % shape.bins;
-        if (line == 0) places.push_back(bin);
-        if (bin + 1 == frame.bins) places.push_back(frame.bins + line);
-        if (line + 1 == frame.lines) places.push_back(2 * frame.bins + frame.lines - bin);
-        if (bin == 0) places.push_back(2 * (frame.bins + frame.lines) - line);
+        if (line == 0) places[0].push_back(bin);
+        if (line + 1 == frame.lines) places[1].push_back(bin);
+        if (bin == 0) places[2].push_back(line);
+        if (bin + 1 == frame.bins) places[3].push_back(line);
     }
-    std::ranges::sort(places);
-    const auto gap = [](int a, int b) { return b > a + 2; };
-    return std::ranges::adjacent_find(places, gap) != places.end();
+    if (std::ranges::count_if(places, [](const auto& side) { return !side.empty(); }) != 1)
+        return false;
+    std::vector<int>& side = *std::ranges::max_element(places, {}, &std::vector<int>::size);
+    std::ranges::sort(side);
+    return std::ranges::adjacent_find(side, [](int a, int b) { return b > a + 2; }) != side.end();
 }
 
 /// Fills the hull of the bins `piece` of a shape, if they cover enough of it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -162,6 +163,41 @@ std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint
     }
     if (own > 0.0 || around > 0.0) return decibel_of(own / around);
     return std::nullopt;
+}
+
+std::vector<std::uint16_t> visible_shadows(const LevelMap& map,
+                                           std::span<const std::uint8_t> wanted,
+                                           std::span<const std::uint8_t> is_background) {
+    constexpr double dark = 0.7;  // -1.5 dB
+    std::map<std::uint16_t, BinBox> boxes;
+    for (std::size_t k = 0; k < map.shadow.size(); ++k) {
+        const std::uint16_t id = map.shadow[k];
+        if (id != 0 && wanted[id] != 0)
+            boxes[id].extend(static_cast<int>(k) / map.bins, static_cast<int>(k) % map.bins);
+    }
+    std::vector<std::uint16_t> out(map.shadow.size(), 0);
+    for (const auto& [id, marked] : boxes) {
+        const BinBox box = over_seam(map, map.shadow, id, marked);
+        std::vector<RangeLevels> ranges = marked_levels(map, map.shadow, id, box);
+        add_surroundings(map, box, is_background, ranges);
+        double sum = 0.0;
+        double greatest = 0.0;
+        std::size_t end = 0;
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            const RangeLevels& range = ranges[k];
+            if (range.count == 0 || range.count_around == 0) continue;
+            sum += dark * range.level_around / range.count_around * range.count - range.level;
+            if (sum <= greatest) continue;
+            greatest = sum;
+            end = k + 1;
+        }
+        for (int line = box.first_line; line <= box.last_line; ++line) {
+            const std::size_t begin = first_bin_of(map, line, box);
+            for (std::size_t k = begin; k < begin + end; ++k)
+                out[k] = map.shadow[k] == id ? id : out[k];
+        }
+    }
+    return out;
 }
 
 }  // namespace sonarsim

@@ -71,4 +71,10 @@ std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint
                                   std::uint16_t id, const BinBox& box,
                                   std::span<const std::uint8_t> is_background);
 
+/// The shadows of the ids that are 1 in `wanted`, without their far ends that look like their
+/// surroundings: each ends at the range up to which it is most below them by 1.5 dB in sum.
+std::vector<std::uint16_t> visible_shadows(const LevelMap& map,
+                                           std::span<const std::uint8_t> wanted,
+                                           std::span<const std::uint8_t> is_background);
+
 }  // namespace sonarsim

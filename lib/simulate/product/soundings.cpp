@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/elementary.h"
 
@@ -9,13 +10,65 @@ namespace sonarsim {
 
 namespace {
 
-/// Range and quality of one beam.
-Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
-    if (std::ranges::none_of(beam, [](double value) { return value > 0.0; })) return {};
-    DetectedReturn run = detect_return(beam);
-    if (run.begin == run.end) run = {0, static_cast<int>(beam.size()), 1.0, 1.0};  // all alike
+/// The bin, with its fraction, at which the echoes of both neighbouring beams are equally strong;
+/// empty if none is plain near the run. On oblique ground an echo has many bins, and the middle of
+/// the run is as uncertain as their speckle. The echo of one bin comes from nearly one direction,
+/// so that the ratio of two beams there has no speckle and is 1 on the axis between them: a
+/// regression of its logarithm over the bins (amplitude monopulse; Lurton, An Introduction to
+/// Underwater Acoustics, section 8.3, for the same by the phase of two halves of an array).
+std::optional<double> crossing_of_neighbours(const Ping& ping, int beam,
+                                             const DetectedReturn& run) {
+    if (beam == 0 || beam + 1 == ping.beams) return {};
+    const int around = std::max(run.end - run.begin, 8);  // speckle ends a run early
+    const int first = std::max(run.begin - around, 0);
+    const int last = std::min(run.end + around, ping.range_bins);
+    double n = 0.0;
+    double squares = 0.0;
+    double x = 0.0;
+    double y = 0.0;
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (int i = first; i < last; ++i) {
+        const float before = ping.at(i, beam - 1);
+        const float after = ping.at(i, beam + 1);
+        if (!(before > 0.0F && after > 0.0F)) continue;
+        const double bin = i + 0.5 - first;
+        const double ratio = static_cast<double>(natural_log(after) - natural_log(before));
+        const double weight = static_cast<double>(ping.at(i, beam));
+        n += weight;
+        squares += weight * weight;
+        x += weight * bin;
+        y += weight * ratio;
+        xx += weight * bin * bin;
+        xy += weight * bin * ratio;
+        yy += weight * ratio * ratio;
+    }
+    const double covariance = n * xy - x * y;
+    const double variance = n * xx - x * x;
+    // Five bins or more decide the line, it explains half of the ratio's variance and crosses 0.
+    if (n * n < 5.0 * squares) return {};
+    if (!(covariance * covariance > 0.5 * variance * (n * yy - y * y))) return {};
+    const double bin = (x - y * variance / covariance) / n;
+    if (!(bin >= 0.0 && bin < last - first)) return {};
+    return first + bin;
+}
+
+/// Range and quality of one beam. `values` are those of the beam, divided by its background.
+Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
+                          std::span<const double> values) {
+    if (std::ranges::none_of(values, [](double value) { return value > 0.0; })) return {};
+    DetectedReturn run = detect_return(values);
+    if (run.begin == run.end) run = {0, static_cast<int>(values.size()), 1.0, 1.0};  // all alike
     Sounding sounding;
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
+    if (sonar.config.model == ModelKind::calibrated) {
+        if (const auto at = crossing_of_neighbours(ping, beam, run)) {
+            const auto bin = static_cast<std::size_t>(*at);
+            sounding.range_m = std::lerp(sonar.range_edges_m[bin], sonar.range_edges_m[bin + 1],
+                                         *at - static_cast<double>(bin));
+        }
+    }
     const double rival = run.rival / run.contrast;
     sounding.quality = std::max(0.0, 1.0 - rival * rival);
     return sounding;
@@ -141,7 +194,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         for (int i = 0; i < ping.range_bins; ++i)
             beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
         if (!noise.empty()) divide_by_background(beam, noise);
-        soundings[j] = sounding_of_beam(sonar, beam);
+        soundings[j] = sounding_of_beam(sonar, ping, j, beam);
         if (std::isnan(soundings[j].range_m)) continue;
         const double azimuth = sonar.beam_azimuths_rad[j];
         soundings[j].position = places.of(on_axis(motion, shape, azimuth, soundings[j].range_m));

@@ -88,6 +88,13 @@ class ObjectRecords {
     const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
     /// 1 for the ids whose masks include the shadow.
     const std::vector<std::uint8_t>& has_shadow() const { return has_shadow_; }
+    /// The ids of a picture with the shadows of those whose masks include them.
+    std::vector<std::uint16_t> shadowed(const MaskFrame& frame, const RecordValues& values,
+                                        const std::vector<std::uint16_t>& ids) const {
+        const LevelMap map = map_of(values);
+        return with_shadows(frame, ids, visible_shadows(map, has_shadow_, is_background_),
+                            has_shadow_);
+    }
 
     /// Reads `count` pings from `first` on into the lines from `line` on, without background.
     void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const {
@@ -107,8 +114,7 @@ class ObjectRecords {
     /// Compares the object in `own` and its shadow within `around` with their surroundings.
     void add_contrasts(const RecordValues& values, const BinBox& own, const BinBox& around,
                        SeenObject& seen) const {
-        const LevelMap map{values.lines,  values.bins,  values.object,
-                           values.shadow, values.level, values.full_turn};
+        const LevelMap map = map_of(values);
         seen.contrast_db = contrast_db(map, map.object, seen.id, own, is_background_);
         BinBox shadow;
         for (int line = around.first_line; line <= around.last_line; ++line) {
@@ -150,6 +156,11 @@ class ObjectRecords {
     std::vector<double> range_m;  ///< middle of each range bin
 
   private:
+    static LevelMap map_of(const RecordValues& values) {
+        return {values.lines,  values.bins,  values.object,
+                values.shadow, values.level, values.full_turn};
+    }
+
     RecordFile open(const std::filesystem::path& folder, std::string_view stem,
                     const char* type) const {
         const PingRecord record = record_of_kind(context_, std::string(stem), type);

@@ -224,7 +224,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         RecordValues drawn = display;
         const MaskFrame frame = frame_of(whole.settings.view, source.cell());
         drawn.object = source.drawn(frame, display.object);
-        const Ids mask_ids = with_shadows(frame, drawn.object, display.shadow, source.has_shadow());
+        const Ids mask_ids = source.shadowed(frame, display, drawn.object);
         std::vector<Json> objects;
         for (const ObjectMask& mask : masks(mask_ids)) {
             SeenObject seen =

@@ -43,22 +43,24 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
     }
 }
 
-/// Foreign pulses begin by a Poisson process, have exponential powers and last as long as the
-/// pulse. Each bin and beam of one has a draw of its own.
+/// Foreign pulses begin by a Poisson process, have exponential powers and last at least as long as
+/// the pulse. Each bin and beam of one has a draw of its own.
 void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
                       std::span<float> image) {
     const double window_s = rows.rows * rows.bin_s;
     const double mean_gap = 1.0 / (receiver.interference_per_s * window_s);
     const auto level = static_cast<float>(power_of_db(receiver.interference_db));
-    double at = 0.0;  // in windows
+    const double length_s = receiver.interference_s;
+    const int bins = std::max(rows.pulse_bins, static_cast<int>(length_s / rows.bin_s));
+    double at = -length_s / window_s;  // in windows; long pulses may begin before the first
     for (std::uint32_t pulse = 0;; ++pulse) {
         const PhiloxBlock draw = philox({pulse, 0, 0, 1}, key);
         at -= mean_gap * static_cast<double>(natural_log(unit_float(draw.x0)));
         if (at >= 1.0) return;
         const float power = -level * natural_log(unit_float(draw.x1));
-        const int first = static_cast<int>(at * rows.rows);
-        const int last = std::min(rows.rows, first + rows.pulse_bins);
-        for (int row = first; row < last; ++row) {
+        const int first = static_cast<int>(std::floor(at * rows.rows));
+        const int last = std::min(rows.rows, first + bins);
+        for (int row = std::max(first, 0); row < last; ++row) {
             float* const values = image.data() + static_cast<std::size_t>(row) * rows.beams;
             for (int beam = 0; beam < rows.beams; ++beam) {
                 const auto cell = static_cast<std::uint32_t>(row * rows.beams + beam);
@@ -115,7 +117,8 @@ void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span
 
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
-    const std::uint32_t word = philox({static_cast<std::uint32_t>(beam), 0, 0, 0}, key).x0;
+    const auto channel = static_cast<std::uint32_t>(beam / receiver.channel_beams);
+    const std::uint32_t word = philox({channel, 0, 0, 0}, key).x0;
     return receiver.beam_gain_db * normal_pair(word).first;
 }
 
