@@ -157,11 +157,12 @@ class Export(tool.ToolTest):
             fan = np.asarray(Image.open(path)).copy()
             fan[fan_objects(ping)[1][2]] -= BRIGHTER - 8
             Image.fromarray(fan).save(path)
-        fls = self.out, "--sensor", "fls", "--format"
+        fls, faint = (self.out, "--sensor", "fls", "--format"), {}
         for words, expected in (((), [3]), (("--min-grey", "0"), [2, 3]), (("--min-grey", "200"), [])):
             dests = [self.folder / "-".join((kind, *words)) for kind in ("coco", "yolo", "masks")]
             for dest, kind in zip(dests, ("coco", "yolo", "masks")):
                 self.export(*fls, kind, *words, dest=dest)
+                faint[words] = json.loads((dest / "statistics.json").read_text())["left_out"]["faint"]
             for ping in range(4):
                 found = self.coco(dest=dests[0])[1][f"fls-{ping:06}.png"]
                 self.assertEqual([one["instance_id"] for one in found], expected, words)
@@ -182,6 +183,8 @@ class Export(tool.ToolTest):
             Image.fromarray(fan).save(path)
         self.export(*fls, "coco")
         self.assertEqual([one["instance_id"] for one in self.coco()[1]["fls-000001.png"]], [2, 3])
+        self.assertLess(faint["--min-grey", "0"], faint[()])
+        self.assertLess(faint[()], faint["--min-grey", "200"])
 
     def test_crops(self):
         """Around each object and of the bed, at a scale in metres; 1:1 a crop has the pixels of the picture."""

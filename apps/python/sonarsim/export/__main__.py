@@ -128,9 +128,9 @@ def export(options):
         raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
     with destination(options.dest, options.folders) as folder:
         layout = formats.KINDS[options.format](folder, source.classes, info, options)
-        for pieces, pictures, dropped in prepare_all(source.pictures, source.numbers, options):
-            statistics.left_out["pictures"] += pictures
-            statistics.left_out["pieces"] += dropped
+        for pieces, left_out in prepare_all(source.pictures, source.numbers, options):
+            for what, count in left_out.items():
+                statistics.left_out[what] += count
             for piece in pieces:
                 layout.add(piece)
                 statistics.add(piece)

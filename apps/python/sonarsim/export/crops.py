@@ -11,7 +11,7 @@ LEAST_LIT = 0.98    # share of its pixels within the view
 
 
 def crops_of(picture, pixels, objects, boxes, options):
-    """(pieces, 0, objects left out) of a picture. `boxes` are those of all objects, faint ones too."""
+    """(pieces, objects left out) of a picture. `boxes` are those of all objects, faint ones too."""
     image = Image.fromarray(np.ascontiguousarray(pixels))
     sides = [count * options.pixel_m / pixel_m for count, pixel_m in zip(options.crop, picture.pixel_m)]
     found, dropped = [], 0
@@ -40,7 +40,7 @@ def crops_of(picture, pixels, objects, boxes, options):
                       not any(runs.cut_box(box, frame) for box in boxes))
             if is_bed and add(f"bed-{number}", middle, []):
                 break
-    return found, 0, dropped
+    return found, dropped
 
 
 def frame_of(middle, sides):

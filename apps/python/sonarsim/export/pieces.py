@@ -28,19 +28,21 @@ class Piece:
 
 
 def prepare(picture, numbers, options):
-    """(pieces, pictures left out, objects left out) of a picture of a dataset."""
+    """(pieces, counts of what is left out) of a picture of a dataset."""
     frames = frames_of(picture, options)
     parts = [part_of(picture, frame) for frame in frames]
     if not any(parts) and options.format != "crops":
-        return [], len(frames), 0
+        return [], {"pictures": len(frames)}
     pixels, is_copy = pixels_of(picture, len(frames) == 1, options)     # first, since the masks are as large
     with data.reading(picture.facts):
         listed = data.read_json(picture.facts.read_bytes())["objects"]
         shown = [object_of(one, picture.kind, numbers[one["class"]]) for one in listed]
         objects = with_pixels([one for one in shown if one], picture, pixels, options)
         kept = [one for one in objects if is_kept(one, picture, options)]
+    faint = len(objects) - len(kept)
     if options.format == "crops":
-        return crops.crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
+        pieces, dropped = crops.crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
+        return pieces, {"faint": faint, "pieces": dropped}
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
         if part is None:
@@ -57,7 +59,7 @@ def prepare(picture, numbers, options):
         for one in piece.objects:
             del one["pixels"]
         pieces.append(piece)
-    return pieces, parts.count(None), dropped
+    return pieces, {"pictures": parts.count(None), "faint": faint, "pieces": dropped}
 
 
 def frames_of(picture, options):
