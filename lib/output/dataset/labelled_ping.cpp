@@ -94,7 +94,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
         out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);
-    if (plan.mask != MaskKind::echo) {
+    if (plan.mask != MaskKind::echo && std::ranges::count(plan.has_shadow, 1) > 0) {
         const MaskFrame frame = frame_of(sonar.settings.view, sonar.settings.model->info.cell);
         const LevelMap map{.lines = out.bins.beams,
                            .bins = out.bins.range_bins,
