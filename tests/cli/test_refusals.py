@@ -217,6 +217,7 @@ WARNED = (
      "turn it with mount.rpy_deg"),
     ({"path.csv": path(offset=(4e5, 6e6))}, "W17", "the nearest ever is 6.01"),
     (edited("add_sigma: 0.01", "add_sigma: 5"), "W18", "lower noise.add_sigma"),
+    ({"path.csv": path(offset=(27, 0))} | edited("\n    - " + MINE, " []"), "W40", "the scene ends within its view"),
     (edited("azimuth_deg: 90", "azimuth_deg: 1.57"), "W38", "1.57 radians are 89.95 degrees; radians? azimuth_deg: 89.95"),
     ({"path.csv": path(step=0.005)}, "W39", "9 of its 9 pings after the first begin before"),
     ({"slab.obj": slab_obj()} | mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}"), "W01",
