@@ -28,11 +28,11 @@ int beams_with_sounding(const Ping& ping);
 /// Makes one sounding per beam, in the order of the beams.
 ///
 /// A beam is divided by the growth of the echo model's noise with range, so that the noise is
-/// uniform. The range is the middle of its detect_return(), or in a model with beam patterns, over
-/// oblique ground, the place within it where both neighbouring beams are equally strong. The
-/// position lies on the beam's axis,
-/// at elevation 0, by the water's profile of sound speed. If the sonar moves in the ping, the axis
-/// is that at the pose of reception. `T_world_vehicle` is the pose of transmission.
+/// uniform. The range is the middle of its detect_return(); in the calibrated model, over oblique
+/// ground, the place near it where both neighbouring beams are equally strong. The position lies on
+/// the beam's axis, at elevation 0, by the water's profile of sound speed. If the sonar moves in
+/// the ping, the axis is that at the pose of reception. `T_world_vehicle` is the pose of
+/// transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
 
