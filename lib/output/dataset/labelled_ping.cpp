@@ -96,14 +96,8 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     Ids mask = without_background(out.bins.facts(), assembly.objects);
     if (plan.mask != MaskKind::echo && std::ranges::count(plan.has_shadow, 1) > 0) {
         const MaskFrame frame = frame_of(sonar.settings.view, sonar.settings.model->info.cell);
-        const LevelMap map{.lines = out.bins.beams,
-                           .bins = out.bins.range_bins,
-                           .object = out.bins.facts(),
-                           .shadow = out.bins.object_shadow,
-                           .level = ping.intensity,
-                           .full_turn = is_full_turn(sonar.settings.view),
-                           .levels_by_bin = true};
-        const Ids shadow = visible_shadows(map, plan.has_shadow, background_ids(assembly.objects));
+        const Ids shadow = visible_shadows(level_map(sonar, out.bins, ping), plan.has_shadow,
+                                           background_ids(assembly.objects));
         mask = with_shadows(frame, mask, shadow, plan.has_shadow);
     }
     out.polar = object_masks(mask, out.bins.range_bins);

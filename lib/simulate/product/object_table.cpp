@@ -185,6 +185,17 @@ std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects) {
     return has_shadow;
 }
 
+LevelMap level_map(const Sonar& sonar, const PingLabels& labels, const Ping& ping) {
+    const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
+    return {.lines = labels.beams,
+            .bins = labels.range_bins,
+            .object = labels.facts(),
+            .shadow = labels.object_shadow,
+            .level = ping.intensity,
+            .full_turn = fan && is_full_turn(sonar.settings.view),
+            .levels_by_bin = true};
+}
+
 std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
                                           const TracedPing& traced, const PingLabels& labels,
                                           const Ping& ping, std::span<const PixelBox> fan_boxes) {
@@ -192,7 +203,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     std::vector<BinTotals> totals(all.size());
     const std::vector<std::uint8_t> is_background = background_ids(objects);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
-    const bool full_turn = fan && is_full_turn(sonar.settings.view);
+    const LevelMap map = level_map(sonar, labels, ping);
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
     };
@@ -204,7 +215,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;
         // In a full turn, the azimuth nearest to that of the object's first beam.
         const auto near_first = [&](int first) {
-            if (!full_turn) return azimuth_rad;
+            if (!map.full_turn) return azimuth_rad;
             const double turn = 2.0 * pi;
             const double from = middle(sonar.azimuth_edges_rad, first);
             return azimuth_rad + turn * std::round((from - azimuth_rad) / turn);
@@ -218,13 +229,6 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const LevelMap map{.lines = labels.beams,
-                       .bins = labels.range_bins,
-                       .object = labels.facts(),
-                       .shadow = labels.object_shadow,
-                       .level = ping.intensity,
-                       .full_turn = full_turn,
-                       .levels_by_bin = true};
     const Contrasts contrasts(map, is_background);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
@@ -236,7 +240,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         object.level = totals[k].level / bins;
         object.range_m = totals[k].range_m / bins;
         if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
-        if (full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
+        if (map.full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
         object.surrounding_level = level_around(object, map);
         object.box_sensor_m = boxes[k];
         contrasts.add_to(object);

@@ -38,6 +38,9 @@ std::vector<std::uint8_t> background_ids(const SceneObjects& objects);
 /// 1 for the ids whose masks include the shadow, 0 for all others of 16 bits.
 std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects);
 
+/// The objects, shadows and levels of a ping. It refers to `labels` and `ping`.
+LevelMap level_map(const Sonar& sonar, const PingLabels& labels, const Ping& ping);
+
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
 /// `fan_boxes` are FanBins::boxes; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size
