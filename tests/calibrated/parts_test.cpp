@@ -97,6 +97,47 @@ TEST_CASE("beams: echoes between the columns have the energy of the pattern on a
     CHECK(std::fabs(received / pattern - 1.0) < 0.003);
 }
 
+TEST_CASE("beams: out of focus an echo has Fresnel's pattern, and all of its energy") {
+    // The pattern of a uniform aperture of W wavelengths with the phase q (2 x)^2 is the square of
+    // the integral of exp(i (q (2 x)^2 + 2 pi x W u)) over x from -1/2 to 1/2. An echo on a column
+    // of the grid, whose step is d, has the further weight 1 / sinc(x W d)^2, which echoes between
+    // two columns do not have on average. By Parseval's theorem the integral over u does not depend
+    // on q.
+    const LineArray array = line_array(radians(0.5), -13.3);
+    const double step = 0.5 / array.wavelengths;
+    std::vector<double> sines;
+    for (int j = -60; j <= 60; ++j)
+        sines.push_back(j * step);
+    for (const double phase : {4.0, -11.0}) {
+        const std::vector<double> defocus{0.0, phase};
+        const Beamformer beams(array, sines, false, {}, defocus);
+        EchoGrid grid(2 * lanes, beams.grid().columns);
+        const int middle = static_cast<int>(std::lround(-beams.grid().first / beams.grid().step));
+        grid.column(middle)[2 * (lanes + 2)] = grid.column(middle)[2 * 5] = 1.0F;
+        Beamformer::Scratch scratch(beams);
+        std::vector<Lanes> in_focus(beams.beams()), out_of_focus(beams.beams());
+        beams.form(&grid, 0, nullptr, scratch, in_focus.data());
+        beams.form(&grid, lanes, nullptr, scratch, out_of_focus.data());
+        double energy = 0.0;
+        double same = 0.0;
+        for (int j = 0; j < beams.beams(); ++j) {
+            std::complex<double> sum = 0.0;
+            double whole = 0.0;
+            for (double x = -0.4995; x < 0.5; x += 0.001) {
+                const double t = pi * x * array.wavelengths * beams.grid().step;
+                const double weight = t * t / (std::sin(t) * std::sin(t));
+                sum += std::polar(weight, 4.0 * phase * x * x + pi * x * (j - 60));
+                whole += weight;
+            }
+            const double expected = std::norm(sum / whole);
+            CHECK(std::fabs(out_of_focus[j][2] / in_focus[60][5] - expected) < 0.003);
+            energy += out_of_focus[j][2];
+            same += in_focus[j][5];
+        }
+        CHECK(std::fabs(energy / same - 1.0) < 0.02);
+    }
+}
+
 TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {
     const std::vector<float> powers{0.0F, 1e-4F, 1.0F / 256, 1.0F / 16, 1.0F, 7.0F};
     using Raw = std::vector<std::uint16_t>;

@@ -50,6 +50,7 @@ struct BeamConfig {
     double side_lobe_db = -13.3;  ///< highest side lobe of the array; sets the taper
     /// Phase errors at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
+    double focus_m = 0.0;  ///< range at which a line array is in focus; 0: at every range
     BeamSpacing spread = BeamSpacing::equal_angle;
     double view_azimuth_deg = 0.0;  ///< full azimuth that a line array insonifies; 0: azimuth_deg
     double elevation_width_deg = 0.0;  ///< two-way half-power width; 0: constant pattern
@@ -189,6 +190,9 @@ void describe(Visitor& v, BeamConfig& c) {
     if (c.aperture == Aperture::line) {
         v.array("aberration_rad", c.aberration_rad, between(-100, 100),
                 "phase error at the ends of the array: quadratic, cubic and quartic part");
+        v.number("focus_m", c.focus_m, between(0, 1000),
+                 "range at which a lens, or an array that does not focus at each range, is in "
+                 "focus; 0 means at every range");
         v.choice("spread", c.spread, beam_spacings,
                  "beam spacing: equal steps of the angle, or of its sine");
         v.number(

@@ -185,7 +185,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         row_noises(model.row_gain, noise, receiver.converter_noise_db);
     model.noise_values = noise_values(model.row_gain, row_noise);
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, sines, row_noise, noise_filter);
+        model.beams =
+            array_beams(beam, sines, range_bins(view), model.wavelength_m, row_noise, noise_filter);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
         model.beams = std::make_shared<TransducerBeams>(beam, view, model.wavelength_m, row_noise,

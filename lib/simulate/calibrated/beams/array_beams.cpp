@@ -24,6 +24,24 @@ LineArray receiving_array(const BeamConfig& beam) {
     return array;
 }
 
+/// The phase at the ends of an array of the length L that is in focus at the range f, in the middle
+/// of every 8 bins: pi L^2 / (4 lambda) (1 / r - 1 / f), by Fresnel's approximation. It is limited
+/// to that which spreads an echo over half of the fan.
+std::vector<double> defocus(const LineArray& array, double focus_m, double wavelength_m,
+                            const BeamSines& sines, const RangeBins& bins) {
+    std::vector<double> out;
+    if (!(focus_m > 0.0)) return out;
+    const double length = array.wavelengths;
+    const double most = 0.25 * pi * length * (sines.edges.back() - sines.edges.front());
+    for (int row = 0; row < bins.count; row += lanes) {
+        const double range_m = bins.min_m + (row + 0.5 * lanes) * bins.bin_m;
+        const double phase =
+            0.25 * pi * length * length * wavelength_m * (1.0 / range_m - 1.0 / focus_m);
+        out.push_back(std::clamp(phase, -most, most));
+    }
+    return out;
+}
+
 /// Adds the first two floats of `values`. One cell at a time: neighbouring echoes share cells, and
 /// a processor waits if it reads half of a value that it has just written.
 void add_two(float* to, __m128 values) {
@@ -111,19 +129,21 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
 }  // namespace
 
 std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
+                                         const RangeBins& bins, double wavelength_m,
                                          std::span<const double> noise,
                                          const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
-    Beamformer amplitudes(array, sines.middles, false, beam.elements);
+    const std::vector<double> phases = defocus(array, beam.focus_m, wavelength_m, sines, bins);
+    Beamformer amplitudes(array, sines.middles, false, beam.elements, phases);
     ElementNoise element_noise;
     for (const double power : noise) {
         element_noise.row_sigma.push_back(static_cast<float>(std::sqrt(power)) *
                                           amplitudes.element_sigma_of_unit());
     }
     element_noise.taps = taps;
-    auto out = std::make_shared<ArrayBeams>(std::move(amplitudes),
-                                            Beamformer(array, sines.middles, true, beam.elements),
-                                            std::move(element_noise));
+    auto out = std::make_shared<ArrayBeams>(
+        std::move(amplitudes), Beamformer(array, sines.middles, true, beam.elements, phases),
+        std::move(element_noise));
     out->cones = ConeBeams(sines.edges);
     return out;
 }

@@ -9,6 +9,7 @@
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/beams/beamformer.h"
 #include "simulate/calibrated/beams/beams.h"
+#include "simulate/trace/range_boxes.h"
 
 namespace sonarsim {
 
@@ -17,9 +18,9 @@ struct BeamSines {
     std::vector<double> middles, edges;  ///< the edges are one more
 };
 
-/// The beams that a line array forms. They have the far-field pattern at every range: the
-/// instrument is assumed to focus. A beam receives echoes in its cone; powers are shared between
-/// the four cells of the grid around each echo.
+/// The beams that a line array forms. They have the far-field pattern at every range or, with
+/// BeamConfig::focus_m, at that one: at others they are wider. A beam receives echoes in its cone;
+/// powers are shared between the four cells of the grid around each echo.
 class ArrayBeams final : public Beams {
   public:
     ArrayBeams(Beamformer amplitudes, Beamformer powers, ElementNoise noise)
@@ -50,6 +51,7 @@ class ArrayBeams final : public Beams {
 /// `sines`: of the beams' azimuths. `noise`: [range bins, to a multiple of 8] the noise power in a
 /// beam. `taps`: the noise's filter along range.
 std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
+                                         const RangeBins& bins, double wavelength_m,
                                          std::span<const double> noise,
                                          const std::vector<float>& taps);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -16,7 +17,7 @@ namespace {
 
 // Columns outside the outer beams, for echoes at the view's edge and for interpolation.
 constexpr int margin = 5;
-// Free columns after the last one, so that an outer beam does not wrap to the other side.
+// Free columns after the last one, so that an outer beam in focus does not wrap to the other side.
 constexpr int gap = 12;
 
 /// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
@@ -64,6 +65,23 @@ Complexes correlated(const Complexes& weights) {
         out.push_back(sum);
     }
     return out;
+}
+
+/// The weights of the squared pattern, of at most `most` elements, or of the pattern.
+Complexes weights_of_form(Complexes weights, bool powers, int most) {
+    if (!powers) return weights;
+    weights = correlated(weights);
+    const int excess = (static_cast<int>(weights.size()) - most + 1) / 2;
+    return excess > 0 ? Complexes(weights.begin() + excess, weights.end() - excess) : weights;
+}
+
+/// The columns by which beams out of focus are wider, to either side: the phase q (2 x)^2 over an
+/// aperture of W wavelengths turns by the sine 2 q / (pi W) at its ends.
+int columns_by_defocus(const LineArray& array, double step, std::span<const double> defocus_rad) {
+    double largest = 0.0;
+    for (const double phase : defocus_rad)
+        largest = std::max(largest, std::fabs(phase));
+    return static_cast<int>(std::ceil(2.0 * largest / (pi * array.wavelengths * step)));
 }
 
 /// Kaiser's window, to -60 dB, at x in [-1, 1].
@@ -135,21 +153,32 @@ SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines
 }
 
 Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
-                       const ElementsConfig& element_errors)
+                       const ElementsConfig& element_errors, std::span<const double> defocus_rad)
     : powers_(powers),
       grid_(sine_grid(array, beam_sines)),
-      fourier_(transform_size(grid_.columns + gap)) {
+      fourier_(transform_size(grid_.columns + gap +
+                              columns_by_defocus(array, grid_.step, defocus_rad))) {
     const int size = fourier_.size();
     const double elements = std::min(size * grid_.step * array.wavelengths, size - 1.0);
-    Complexes weights = element_weights(array, elements);
-    add_element_errors(array, element_errors, elements, weights);
-    if (powers) {
-        weights = correlated(weights);
-        // The transform has at most as many elements as its size.
-        const int excess = (static_cast<int>(weights.size()) - size + 1) / 2;
-        if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
+    LineArray own = array;
+    if (defocus_rad.empty()) add_weights(own, elements, element_errors);
+    for (const double phase : defocus_rad) {
+        own.quadratic_rad = array.quadratic_rad + phase;
+        add_weights(own, elements, element_errors);
     }
-    const int reach = static_cast<int>(weights.size()) / 2;
+    find_taps(beam_sines);
+}
+
+/// Adds the weights of a block of rows; `samples` of the aperture.
+void Beamformer::add_weights(const LineArray& array, double samples,
+                             const ElementsConfig& element_errors) {
+    const int size = fourier_.size();
+    Complexes weights = element_weights(array, samples);
+    add_element_errors(array, element_errors, samples, weights);
+    weights = weights_of_form(std::move(weights), powers_, size);
+    elements_ = static_cast<int>(weights.size());
+    const int reach = elements_ / 2;
+    const std::size_t first = weights_.size();
     double in_columns = 0.0;
     double between = 0.0;
     double noise = 0.0;
@@ -168,15 +197,18 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     }
     scalloping_gain_ = static_cast<float>(between / in_columns);
     // Amplitudes between columns: the mean power over all positions becomes that of the pattern.
-    const auto level = static_cast<float>(powers ? 1.0 : std::sqrt(noise / between));
-    for (Weight& weight : weights_) {
+    const auto level = static_cast<float>(powers_ ? 1.0 : std::sqrt(noise / between));
+    for (Weight& weight : std::span(weights_).subspan(first)) {
         weight.re *= level;
         weight.im *= level;
         weight.noise_scale /= level;
     }
     // The power of noise in a beam is the sum over elements and both parts.
     unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
+}
 
+/// Finds the columns of each beam and their taps.
+void Beamformer::find_taps(const std::vector<double>& beam_sines) {
     bool on_columns = true;
     for (const double sine : beam_sines) {
         const double at = (sine - grid_.first) / grid_.step;
@@ -215,16 +247,17 @@ void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch)
     noise.drawn.go_to(row);
     const float* const row_sigma = noise.levels.row_sigma.data() + row;
     const int elements = this->elements();
+    const std::span<const Weight> weights = weights_at(row);
     for (int e = 0; e < elements; ++e) {
         const ComplexLanes drawn = noise.drawn.of(e);
-        ComplexLanes z = scratch.data[weights_[e].index];
-        const float scale = weights_[e].noise_scale;
+        ComplexLanes z = scratch.data[weights[e].index];
+        const float scale = weights[e].noise_scale;
         for (int lane = 0; lane < lanes; ++lane) {
             const float sigma = row_sigma[lane] * scale;
             z.re[lane] = std::fma(sigma, drawn.re[lane], z.re[lane]);
             z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
         }
-        scratch.data[weights_[e].index] = z;
+        scratch.data[weights[e].index] = z;
     }
 }
 
@@ -243,9 +276,9 @@ void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, 
     if (noise) add_noise(*noise, row, scratch);
 
     // The transform has more elements than the aperture; the others receive nothing.
-    const auto reach = static_cast<int>(weights_.size() / 2);
+    const int reach = elements_ / 2;
     std::fill(data + reach + 1, data + size - reach, ComplexLanes{});
-    for (const Weight& w : weights_) {
+    for (const Weight& w : weights_at(row)) {
         const ComplexLanes z = data[w.index];
         const float re = w.re;
         const float im = w.im;

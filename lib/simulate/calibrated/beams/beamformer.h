@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/random.h"
@@ -26,17 +27,19 @@ struct ElementNoiseOfPing {
 
 /// Forms the beams of a line array. The Fourier transform of a grid of sines is the signal over the
 /// array's aperture, one value per element. Each is weighted, its noise is added, and it is
-/// transformed back. Beams between the columns of the grid are interpolated.
+/// transformed back. Beams between the columns of the grid are interpolated. Weights may differ
+/// from eight rows to the next, as those of an array that is in focus at one range do.
 class Beamformer {
   public:
     /// `beam_sines` are the sines of the beams' middles. `powers`: the grid holds powers, and the
-    /// weights are those of the squared pattern.
+    /// weights are those of the squared pattern. `defocus_rad`: for every 8 rows, the quadratic
+    /// phase at the ends of the array in addition to its own; empty: in focus.
     Beamformer(const LineArray& array, const std::vector<double>& beam_sines, bool powers,
-               const ElementsConfig& elements = {});
+               const ElementsConfig& elements = {}, std::span<const double> defocus_rad = {});
 
     const SineGrid& grid() const { return grid_; }
     int beams() const { return static_cast<int>(first_tap_.size()); }
-    int elements() const { return static_cast<int>(weights_.size()); }
+    int elements() const { return elements_; }
     /// Scalloping correction: mean power over positions between two columns / power in a column.
     float scalloping_gain() const { return scalloping_gain_; }
     /// The sigma of the elements for a noise of power 1 in a beam.
@@ -61,12 +64,20 @@ class Beamformer {
                             ///< echoes only
     };
 
+    void add_weights(const LineArray& array, double samples, const ElementsConfig& element_errors);
+    void find_taps(const std::vector<double>& beam_sines);
     void add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const;
+    std::span<const Weight> weights_at(int row) const {
+        const std::size_t first = std::size_t{1} * (row / lanes) * elements_;
+        return {weights_.data() + (first < weights_.size() ? first : 0),
+                static_cast<std::size_t>(elements_)};
+    }
 
     bool powers_;
     SineGrid grid_;
     Fourier fourier_;
-    std::vector<Weight> weights_;
+    int elements_ = 0;
+    std::vector<Weight> weights_;  ///< [1 or blocks of 8 rows, elements]
     int taps_ = 1;
     std::vector<int> first_tap_;  ///< [beams]
     std::vector<float> tap_;      ///< [beams, taps]
