@@ -148,6 +148,10 @@ TEST_CASE("companding: the laws at several powers, and an offset that makes zero
     receiver.offset = 0.0;
     receiver.companding = Companding::linear;
     CHECK(companded(powers, receiver) == Raw{0, 3, 16, 64, 255, 255});
+    // With the knee k = 0.2: k + (1 - k) (1 - exp(-(v - k) / (1 - k))), at v = 1/4, 1 and sqrt(7).
+    receiver.knee = 0.2;
+    CHECK(companded(powers, receiver) == Raw{0, 3, 16, 63, 180, 245});
+    receiver.knee = 1.0;
     receiver.companding = Companding::log;
     receiver.bits = 12;
     // 1 + 20 log(amplitude) / 60 of 4095.

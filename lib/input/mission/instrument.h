@@ -89,6 +89,7 @@ struct ReceiverConfig {
     Companding companding = Companding::gamma;
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< for Companding::log
+    double knee = 1.0;             ///< value above which highlights are compressed
     int bits = 8;
     double samples = 1.0;  ///< independent samples of a range bin
     SampleRule combine = SampleRule::maximum;
@@ -300,6 +301,9 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number("gamma", c.gamma, between(0.1, 2), "exponent of `gamma`");
     v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
              "decibels between the values 0 and the largest one with `log`");
+    v.number("knee", c.knee, between(0.1, 1),
+             "share of the largest value above which values approach it and do not clip, as "
+             "highlights on a screen; 1 means none");
     v.number("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
     describe_chain(v, c);
 }

@@ -120,6 +120,7 @@ def set_facts(folder, sensor, is_raw, recording):
         kind = {"gamma": "gamma", "log": "decibel"}.get(receiver.keys.get("companding", "gamma"), "amplitude")
         recording.law = Law(kind, receiver.number("gamma", 0.1, 2.0, 0.5),
                             receiver.number("dynamic_range_db", 10.0, 200.0, 60.0),
-                            2.0 ** int(receiver.number("bits", 4, 16, 8)) - 1.0, receiver.number("offset", 0.0, 0.9, 0.0))
+                            2.0 ** int(receiver.number("bits", 4, 16, 8)) - 1.0, receiver.number("offset", 0.0, 0.9, 0.0),
+                            receiver.number("knee", 0.1, 1.0, 1.0))
     if not isinstance(water.keys.get("sound_speed_m_s"), dict):     # a section where it changes with depth
         recording.sound_speed_m_s = water.number("sound_speed_m_s", 1.0, 1e5, recording.sound_speed_m_s)

@@ -23,6 +23,7 @@ class Law:
     range_db: float = 0.0       # of decibel: from the value 0 to full_value
     full_value: float = 255.0   # the largest value of the instrument, 0 if there is none
     offset: float = 0.0         # share of full_value that the instrument subtracts
+    knee: float = 1.0           # share of full_value above which values approach it
 
     @property
     def largest_value(self):
@@ -34,6 +35,9 @@ class Law:
         value 0 has the power 0; under the law decibel it has that of the lowest level."""
         values = np.asarray(values, np.float64)
         share = values / (self.full_value or 1.0) + self.offset
+        if self.knee < 1.0:
+            rest = np.clip((share - self.knee) / (1.0 - self.knee), 0.0, 0.999)
+            share = np.minimum(share, self.knee) - (1.0 - self.knee) * np.log1p(-rest)
         with np.errstate(over="ignore"):
             if self.kind == "decibel":
                 powers = 10.0 ** ((share - 1.0) * self.range_db / 10.0)

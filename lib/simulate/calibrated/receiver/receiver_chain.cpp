@@ -86,11 +86,25 @@ void lose_power(const ReceiverConfig& receiver, PhiloxKey key, std::span<float> 
 // The smallest power for the logarithm: it is a normal float, and every companding makes it 0.
 constexpr float min_power = 1e-37F;
 
-/// The function from the natural logarithm of the power, at most 0, to a value in [0, 1].
+/// The function from the natural logarithm of the power, 0 at full scale, to a value: 1 there.
 struct Law {
     bool logarithmic;
     float factor;
+
+    float value(float logarithm_of_power) const {
+        return logarithmic ? std::max(1.0F + factor * logarithm_of_power, 0.0F)
+                           : exp_neg(-factor * logarithm_of_power);
+    }
 };
+
+// No value changes beyond it, with any knee.
+constexpr float max_power = 1e6F;
+
+/// The value v above a knee k becomes 1 - (1 - k) exp(-(v - k) / (1 - k)), whose slope at k is 1.
+float compressed(float value, float knee) {
+    if (!(value > knee)) return value;
+    return 1.0F - (1.0F - knee) * exp_neg((value - knee) / (1.0F - knee));
+}
 
 Law law_of(const ReceiverConfig& receiver) {
     switch (receiver.companding) {
@@ -137,15 +151,23 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
     const Law law = law_of(receiver);
     const auto greatest = static_cast<float>((1 << receiver.bits) - 1);
     const auto offset = static_cast<float>(receiver.offset);
+    const auto knee = static_cast<float>(receiver.knee);
+    const bool has_knee = knee < 1.0F;
+    const float most = has_knee ? max_power : 1.0F;
+    const float logarithm_of_most = has_knee ? natural_log(max_power) : 0.0F;
     std::vector<std::uint16_t> out(powers.size());
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const float power = std::min(std::max(powers[i], min_power), 1.0F);
-        const float logarithm_of_power = std::min(natural_log(power), 0.0F);
-        const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
-                                            : exp_neg(-law.factor * logarithm_of_power);
-        const float above = std::max(value - offset, 0.0F);
-        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
-    }
+    const auto fill = [&](auto finish) {
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const float power = std::min(std::max(powers[i], min_power), most);
+            const float value = finish(law.value(std::min(natural_log(power), logarithm_of_most)));
+            const float above = std::max(value - offset, 0.0F);
+            out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
+        }
+    };
+    if (has_knee)
+        fill([knee](float value) { return compressed(value, knee); });
+    else
+        fill([](float value) { return value; });
     return out;
 }
 
