@@ -192,8 +192,7 @@ void describe(Visitor& v, BeamConfig& c) {
         v.array("aberration_rad", c.aberration_rad, between(-100, 100),
                 "phase error at the ends of the array: quadratic, cubic and quartic part");
         v.number("focus_m", c.focus_m, between(0, 1000),
-                 "range at which a lens, or an array that does not focus at each range, is in "
-                 "focus; 0 means at every range");
+                 "range at which a lens is in focus; 0: at every range");
         v.choice("spread", c.spread, beam_spacings,
                  "beam spacing: equal steps of the angle, or of its sine");
         v.number(
@@ -302,8 +301,7 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
              "decibels between the values 0 and the largest one with `log`");
     v.number("knee", c.knee, between(0.1, 1),
-             "share of the largest value above which values approach it and do not clip, as "
-             "highlights on a screen; 1 means none");
+             "share of the largest value above which values are compressed, as on a screen");
     v.number("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
     describe_chain(v, c);
 }
