@@ -51,6 +51,27 @@ TEST_CASE("measured errors: a coarse octree is warned of, with the key to change
     CHECK(warnings[0].cure == "use engine: auto");
 }
 
+// Bins are 1 mm deep and a few millimetres wide: smaller than 1 cm^2.
+TEST_CASE("measured errors: most bins of a fine sonar that hold surface count") {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    auto& fine = mission.sensors[0];
+    fine.azimuth_deg = 4.0;
+    fine.azimuth_bins = 40;
+    fine.range_bins = static_cast<int>((fine.range_max_m - fine.range_min_m) / 0.001);
+    const Assembly assembly = small_assembly(mission, 7);
+    const Sonar& sonar = assembly.sonars[0];
+    const Pose pose = sensor_pose(sonar, assembly.trajectory[3].T_world_vehicle, 3);
+    const Reference truth = cast_reference(Caster(assembly.scene), assembly.scene, sonar, pose,
+                                           {.rays_per_bin = 1e9, .rays_max = 1'000'000});
+    const auto occupied =
+        std::ranges::count_if(truth.intensity, [](float value) { return value > 0.0F; });
+    CHECK(occupied > 1000);
+    const auto scored = std::ranges::count(truth.scored, 1);
+    CAPTURE_ALL(occupied, scored);
+    CHECK(10 * scored > 8 * occupied);
+}
+
 // The truth has 32 times as fine a goal. A plate of 0.3 m before the wall adds narrow bounces.
 TEST_CASE("measured errors: multipath counts") {
     Mission mission = small_mission("unused");

@@ -25,20 +25,19 @@ constexpr double measurable = 0.5;
 constexpr std::uint64_t mean_rays_max = 6'000'000;
 constexpr std::uint64_t energy_rays_max = 3'000'000;  // an echo costs as much as its ray
 
-/// The cell of a sonar's range noise; 1 cm^2 without that noise. A cell above 1 cm^2 is at most a
-/// tenth of a bin in the middle of the ranges: the noise of the reference decides which bins hold a
-/// cell of their own size.
+/// The cell of a sonar's range noise; 1 cm^2 without that noise, but at most half of a bin in the
+/// middle of the ranges: of finer bins few would hold a cell. A cell above 1 cm^2 is at most a
+/// tenth of that bin: the noise of the reference decides which bins hold a cell of their own size.
 double cell_m2_of(const Sonar& sonar) {
-    constexpr double usual_m2 = 1e-4;
-    constexpr double max_by_bin = 0.1;
-    const NoiseConfig& noise = sonar.config.noise;
-    if (sonar.config.model != ModelKind::paper || !(noise.range_lambda_m > 0.0)) return usual_m2;
     const View& view = sonar.settings.view;
     const double across_rad =
         view.shape == ViewShape::fan ? view.azimuth_rad / view.beams : view.elevation_rad;
     const double middle_m = 0.5 * (view.range_min_m + view.range_max_m);
-    const double max_m2 = max_by_bin * view.bin_m() * across_rad * middle_m;
-    return std::min(noise.scatterer_m * noise.scatterer_m, std::max(max_m2, usual_m2));
+    const double bin_m2 = view.bin_m() * across_rad * middle_m;
+    const double usual_m2 = std::min(1e-4, 0.5 * bin_m2);
+    const NoiseConfig& noise = sonar.config.noise;
+    if (sonar.config.model != ModelKind::paper || !(noise.range_lambda_m > 0.0)) return usual_m2;
+    return std::min(noise.scatterer_m * noise.scatterer_m, std::max(0.1 * bin_m2, usual_m2));
 }
 
 /// The ping of one sonar that is measured.
