@@ -97,7 +97,7 @@ struct Law {
     }
 };
 
-// No value changes beyond it, with any knee.
+// Powers of more than 60 dB above full scale count as that.
 constexpr float max_power = 1e6F;
 
 /// The value v above a knee k becomes 1 - (1 - k) exp(-(v - k) / (1 - k)), whose slope at k is 1.
