@@ -54,15 +54,22 @@ void add_element_errors(const LineArray& array, const ElementsConfig& elements, 
         weights[k] *= 1.0 + scale * errors[k];
 }
 
-/// The weights of the squared pattern: the weights correlated with themselves.
+/// The weights of the squared pattern: the weights correlated with themselves. Without the checks
+/// for NaN of products of std::complex, which take most of the time.
 Complexes correlated(const Complexes& weights) {
-    const int n = static_cast<int>(weights.size());
-    Complexes out;
-    for (int lag = -(n - 1); lag <= n - 1; ++lag) {
-        std::complex<double> sum = 0.0;
-        for (int k = std::max(0, -lag); k < std::min(n, n - lag); ++k)
-            sum += weights[k + lag] * std::conj(weights[k]);
-        out.push_back(sum);
+    const std::size_t n = weights.size();
+    Complexes out(2 * n - 1);
+    for (std::size_t lag = 0; lag < n; ++lag) {
+        double re = 0.0;
+        double im = 0.0;
+        for (std::size_t k = 0; k + lag < n; ++k) {
+            const std::complex<double> a = weights[k + lag];
+            const std::complex<double> b = weights[k];
+            re += a.real() * b.real() + a.imag() * b.imag();
+            im += a.imag() * b.real() - a.real() * b.imag();
+        }
+        out[n - 1 + lag] = {re, im};
+        out[n - 1 - lag] = {re, -im};
     }
     return out;
 }
