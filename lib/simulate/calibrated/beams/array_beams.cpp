@@ -26,7 +26,7 @@ LineArray receiving_array(const BeamConfig& beam) {
 
 /// The phase at the ends of an array of the length L that is in focus at the range f, in the middle
 /// of every 8 bins: pi L^2 / (4 lambda) (1 / r - 1 / f), by Fresnel's approximation. It is limited
-/// to that which spreads an echo over half of the fan.
+/// to that which spreads an echo over half of the fan to either side.
 std::vector<double> defocus(const LineArray& array, double focus_m, double wavelength_m,
                             const BeamSines& sines, const RangeBins& bins) {
     std::vector<double> out;

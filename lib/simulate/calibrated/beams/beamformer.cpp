@@ -176,7 +176,8 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     find_taps(beam_sines);
 }
 
-/// Adds the weights of a block of rows; `samples` of the aperture.
+/// Adds the weights of a block of rows; `samples` of the aperture. The gain and the sigma of
+/// amplitudes are those of every block, since blocks differ by phases alone.
 void Beamformer::add_weights(const LineArray& array, double samples,
                              const ElementsConfig& element_errors) {
     const int size = fourier_.size();

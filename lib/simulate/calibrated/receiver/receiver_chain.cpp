@@ -156,18 +156,13 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
     const float most = has_knee ? max_power : 1.0F;
     const float logarithm_of_most = has_knee ? natural_log(max_power) : 0.0F;
     std::vector<std::uint16_t> out(powers.size());
-    const auto fill = [&](auto finish) {
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const float power = std::min(std::max(powers[i], min_power), most);
-            const float value = finish(law.value(std::min(natural_log(power), logarithm_of_most)));
-            const float above = std::max(value - offset, 0.0F);
-            out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
-        }
-    };
-    if (has_knee)
-        fill([knee](float value) { return compressed(value, knee); });
-    else
-        fill([](float value) { return value; });
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const float power = std::min(std::max(powers[i], min_power), most);
+        float value = law.value(std::min(natural_log(power), logarithm_of_most));
+        if (has_knee) value = compressed(value, knee);
+        const float above = std::max(value - offset, 0.0F);
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
+    }
     return out;
 }
 
