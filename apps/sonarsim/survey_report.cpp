@@ -148,12 +148,15 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
         fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
     const std::optional<PingError> worst = error->worst();
     if (!worst) return result_line("", "error " + limit);
+    const std::vector<PingError> measured = error->measured();
     std::string text =
         fmt::format("error {} % on average and {} % at worst in {} pings, goal {} %",
                     short_text(100.0 * *error->mean()), short_text(100.0 * *worst->relative_l1),
-                    error->measured().size(), short_text(100.0 * goal, 4));
+                    measured.size(), short_text(100.0 * goal, 4));
+    if (const auto count = std::ranges::count_if(measured, &PingError::by_finer_image); count > 0)
+        text += fmt::format("; {} by the change to a third of that goal", count);
     if (unknown > 0.0)
-        text += fmt::format("; in {} more it {}", error->pings.size() - error->measured().size(),
+        text += fmt::format("; in {} more it {}", error->pings.size() - measured.size(),
                             limit);
     return result_line("", text);
 }

@@ -72,6 +72,37 @@ TEST_CASE("measured errors: most bins of a fine sonar that hold surface count") 
     CHECK(10 * scored > 8 * occupied);
 }
 
+TEST_CASE("measured errors: a finer image stands in for a reference with too much noise") {
+    const Lattice lattice = draw_lattice(1000);
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    SonarConfig& fine = mission.sensors[0];
+    fine = bare_sonar(lattice.sonar, 1e6);
+    fine.range_bins = 1024;
+    fine.azimuth_bins = 512;
+    mission.accuracy.relative_l1 = 0.02;
+    Assembly assembly = small_assembly(mission, 1);
+    assembly.scene = lattice.scene;
+    assembly.trajectory[0].T_world_vehicle = {};
+    const Sonar& sonar = assembly.sonars[0];
+    const auto engine = make_engine(mission, assembly);
+    const auto errors = measure_errors(mission, assembly, *engine)[0];
+    REQUIRE(errors);
+    const PingError& ping = errors->pings.at(0);
+    CAPTURE_ALL(ping.noise, *ping.relative_l1);
+    REQUIRE(ping.by_finer_image);
+    CHECK(json_of(*errors)["pings"][0]["by"] == "finer image");
+    Sonar finest = sonar;
+    finest.settings.view.relative_l1 /= 32.0;
+    const auto image = [&](const Sonar& of) {
+        return direct_image(of, assembly.scene, *engine, {}).intensity;
+    };
+    const double truth = image_error(image(sonar), image(finest)).relative_l1;
+    CAPTURE_ALL(truth);
+    CHECK(*ping.relative_l1 > truth / 1.5);
+    CHECK(*ping.relative_l1 < 1.5 * truth);
+}
+
 // The truth has 32 times as fine a goal. A plate of 0.3 m before the wall adds narrow bounces.
 TEST_CASE("measured errors: multipath counts") {
     Mission mission = small_mission("unused");

@@ -21,6 +21,9 @@ constexpr std::size_t max_measured_pings = 3;
 /// Noise of a reference by an error that can be measured with it.
 constexpr double measurable = 0.5;
 
+/// No engine refines images much beyond a third of this goal.
+constexpr double least_refined_goal = 0.01;
+
 // A count and not a time, so that the numbers are the same on every machine.
 constexpr std::uint64_t mean_rays_max = 6'000'000;
 constexpr std::uint64_t energy_rays_max = 3'000'000;  // an echo costs as much as its ray
@@ -46,14 +49,10 @@ struct Task {
     std::uint32_t pose;
 };
 
-/// The change of the image with multipath, relative L1, from the mission's goal to a tenth of it;
-/// 0 for a sonar without multipath. The reference holds no multipath.
-double multipath_error(const Sonar& usual, const Scene& scene, const VisibilityEngine& engine,
-                       const Pose& T_world_sensor) {
-    constexpr double finer = 0.1;
+/// The change of the image, relative L1, from the mission's goal to a finer one.
+double change_when_finer(PingSettings settings, double finer, const Scene& scene,
+                         const VisibilityEngine& engine, const Pose& T_world_sensor) {
     constexpr Terms terms{.water = false, .random = 0};
-    if (!usual.settings.multipath.on) return 0.0;
-    PingSettings settings = usual.settings;
     const auto image = [&] {
         const TracedPing traced = trace_ping(settings, scene, engine, T_world_sensor, terms);
         return form_image(traced, settings, scene, {}, terms).intensity;
@@ -84,18 +83,15 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         engine_at(engine, assembly.motions, at.t_s);
     const Ping ping = direct_image(*sonar, scene, *then, T_world_sensor);
     const double direct = error_without_noise(ping.intensity, truth);
-    const double error = std::max(direct, multipath_error(*sonar, scene, *then, T_world_sensor));
-    if (truth.noise > measurable * std::max(goal, error)) return {pose, {}, truth.noise};
-    return {pose, error, truth.noise};
-}
-
-/// True if the first ping could not be measured, and others of as many bins will not be either.
-bool is_hopeless(const std::optional<MeasuredError>& first, const Mission& mission) {
-    // All rays that are allowed lower the noise of a first round by at most 13 (noise_by()), and it
-    // must be below half of the goal.
-    constexpr double far_above = 10.0;
-    return first && !first->pings[0].relative_l1 &&
-           first->pings[0].noise > far_above * mission.accuracy.relative_l1;
+    const auto change = [&](double finer) {
+        return change_when_finer(sonar->settings, finer, scene, *then, T_world_sensor);
+    };
+    // The reference holds no multipath.
+    const double error = sonar->settings.multipath.on ? std::max(direct, change(0.1)) : direct;
+    if (truth.noise <= measurable * std::max(goal, error)) return {pose, error, truth.noise};
+    if (mission.engine == EngineKind::octree || goal < least_refined_goal)
+        return {pose, {}, truth.noise};
+    return {pose, std::max(error, change(1.0 / 3.0)), truth.noise, true};
 }
 
 }  // namespace
@@ -164,24 +160,15 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
             tasks.push_back({i, pose});
     }
     const Caster caster = assembly.make_caster();
-    // The first ping of each sonar tells whether others are worth their casts.
-    const auto is_first = [&](std::size_t k) {
-        return k == 0 || tasks[k].sonar != tasks[k - 1].sonar;
-    };
     std::vector<PingError> found(tasks.size());
-    for (const bool first : {true, false}) {
-        in_parallel(tasks.size(), [&](std::size_t k) {
-            const Task& task = tasks[k];
-            if (is_first(k) == first && !is_hopeless(errors[task.sonar], mission))
-                found[k] = measure(mission, assembly, caster, engine, assembly.sonars[task.sonar],
-                                   task.pose);
-        });
-        for (std::size_t k = 0; k < tasks.size(); ++k) {
-            std::optional<MeasuredError>& error = errors[tasks[k].sonar];
-            if (is_first(k) != first || is_hopeless(error, mission)) continue;
-            if (!error) error.emplace();
-            error->pings.push_back(found[k]);
-        }
+    in_parallel(tasks.size(), [&](std::size_t k) {
+        found[k] = measure(mission, assembly, caster, engine, assembly.sonars[tasks[k].sonar],
+                           tasks[k].pose);
+    });
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        std::optional<MeasuredError>& error = errors[tasks[k].sonar];
+        if (!error) error.emplace();
+        error->pings.push_back(found[k]);
     }
     return errors;
 }
@@ -213,7 +200,8 @@ nlohmann::ordered_json json_of(const MeasuredError& error) {
     for (const PingError& ping : error.pings) {
         pings.push_back({{"pose", ping.pose},
                          {"relative_l1", rounded(ping.relative_l1)},
-                         {"reference_noise", rounded(ping.noise)}});
+                         {"reference_noise", rounded(ping.noise)},
+                         {"by", ping.by_finer_image ? "finer image" : "reference"}});
     }
     const std::optional<PingError> worst = error.worst();
     return {{"mean", rounded(error.mean())},

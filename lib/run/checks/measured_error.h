@@ -12,12 +12,14 @@
 
 namespace sonarsim {
 
-/// The error of one ping's image, as error_without_noise() estimates it.
+/// The error of one ping's image, as error_without_noise() estimates it. Where the noise of the
+/// reference is above half of both the error and the goal, it is the change to a third of the goal.
 struct PingError {
     std::uint32_t pose = 0;
-    /// Nothing where the reference's noise is above half of both the error and the goal.
+    /// Nothing where neither the reference nor a finer image tells it.
     std::optional<double> relative_l1;
     double noise = 0.0;  ///< the noise of the reference, which does not enter `relative_l1`
+    bool by_finer_image = false;  ///< the change to a finer goal, for want of a better reference
 };
 
 /// The error of a sonar at a few pings that are spread over its trajectory.
