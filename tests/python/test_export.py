@@ -220,6 +220,12 @@ class Export(tool.ToolTest):
         linear = np.asarray(Image.open(self.out / "sss/waterfall.png"))[3:20, :14] / 65535     # its middle is (5.5, 11.5)
         np.testing.assert_allclose(crop[:, 3:], np.floor(255 * np.sqrt(linear) + 0.5), atol=1)
         self.assertEqual(crop[:, :3].max(), 0)
+        dest = self.folder / "rows"
+        self.export(self.out, "--format", "crops", "--sensor", "sss", "--pixel-m", "0.25", "--crop", "32", dest=dest)
+        rows = np.asarray(Image.open(next(dest.glob("train/mine/*.png")))).astype(int)
+        changes = np.abs(np.diff(rows, axis=0)).max(axis=1) > 0     # pings are two pixels apart
+        self.assertLessEqual(changes.sum(), 16)
+        self.assertFalse((changes[1:] & changes[:-1]).any())
 
     def test_yolo(self):
         for words in ((), ("--polygons",)):

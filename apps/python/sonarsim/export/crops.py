@@ -13,6 +13,8 @@ LEAST_LIT = 0.98    # share of its pixels within the view
 def crops_of(picture, pixels, objects, boxes, options):
     """(pieces, objects left out) of a picture. `boxes` are those of all objects, faint ones too."""
     image = Image.fromarray(np.ascontiguousarray(pixels))
+    # A screen repeats the rows of pings that are further apart than its own.
+    smoothing = Image.Resampling.BOX if picture.kind == "strip" else Image.Resampling.BILINEAR
     sides = [count * options.pixel_m / pixel_m for count, pixel_m in zip(options.crop, picture.pixel_m)]
     found, dropped = [], 0
 
@@ -21,7 +23,7 @@ def crops_of(picture, pixels, objects, boxes, options):
         part = pieces.part_of(picture, (max(0, int(frame[0])), int(np.ceil(frame[1])),
                                         max(0, int(frame[2])), int(np.ceil(frame[3]))))
         if part is not None:
-            content = pieces.png_of(cut(image, frame, options.crop))
+            content = pieces.png_of(cut(image, frame, options.crop, smoothing))
             found.append(pieces.Piece(f"{picture.name}-{name}", part, *options.crop, picture.dataset, shown, content))
         return part is not None
 
@@ -48,9 +50,8 @@ def frame_of(middle, sides):
     return (middle[0] - sides[0] / 2, middle[0] + sides[0] / 2, middle[1] - sides[1] / 2, middle[1] + sides[1] / 2)
 
 
-def cut(image, frame, size):
+def cut(image, frame, size, smoothing):
     """The part of an image in a frame as a picture of a size; black beyond its border."""
     left, top = int(np.floor(frame[0])), int(np.floor(frame[2]))
     around = image.crop((left, top, int(np.ceil(frame[1])), int(np.ceil(frame[3]))))
-    return around.resize(size, Image.Resampling.BILINEAR,
-                         box=(frame[0] - left, frame[2] - top, frame[1] - left, frame[3] - top))
+    return around.resize(size, smoothing, box=(frame[0] - left, frame[2] - top, frame[1] - left, frame[3] - top))
