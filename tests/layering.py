@@ -46,7 +46,7 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "format": "core",
     "dataset": "core mission scene trajectory trace calibrated ping labels product sonar assembly format",
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
-    "job": "core mission trajectory visibility trace sonar assembly dataset checks",
+    "job": "core mission trajectory visibility sonar assembly dataset checks",
     "report": "core mission scene visibility sonar assembly reference dataset checks job",
     "preview": "core mission scene visibility trace ping product sonar assembly",
 }.items()}

@@ -9,7 +9,6 @@
 #include "run/checks/measured_error.h"
 #include "run/checks/survey.h"
 #include "run/checks/warning.h"
-#include "simulate/assembly/assemble.h"
 
 namespace sonarsim {
 

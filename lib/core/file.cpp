@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "core/descriptor.h"

@@ -1,7 +1,6 @@
 #include "input/mission/parse.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <iterator>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 #include "core/text.h"

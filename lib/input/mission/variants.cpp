@@ -1,11 +1,9 @@
 #include "input/mission/variants.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/random.h"
 #include "core/text.h"
-#include "input/mission/parse.h"
 #include "input/mission/ping_draws.h"
 #include "input/mission/preset.h"
 #include "input/mission/resolved.h"

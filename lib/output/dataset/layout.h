@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "input/mission/dataset_names.h"
 #include "output/dataset/writer.h"
 
 // The files of a dataset:

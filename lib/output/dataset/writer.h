@@ -16,7 +16,6 @@
 #include "output/format/png.h"
 #include "simulate/assembly/assemble.h"
 #include "simulate/assembly/render_at_pose.h"
-#include "simulate/ping/form_image.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

@@ -1,8 +1,5 @@
 #include "run/checks/warning.h"
 
-#include <algorithm>
-#include <array>
-
 namespace sonarsim {
 
 namespace {

@@ -7,7 +7,6 @@
 #include "output/dataset/encode_ping.h"
 #include "output/dataset/layout.h"
 #include "output/dataset/metadata.h"
-#include "simulate/assembly/assemble.h"
 #include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {

@@ -7,7 +7,6 @@
 
 #include "output/dataset/sensor_summary.h"
 #include "run/checks/warning.h"
-#include "simulate/trace/ping.h"
 
 namespace sonarsim {
 

@@ -18,7 +18,6 @@
 #include "run/job/journal.h"
 #include "run/job/render_pings.h"
 #include "run/job/shard_lock.h"
-#include "simulate/assembly/assemble.h"
 
 namespace sonarsim {
 

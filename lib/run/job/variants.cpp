@@ -10,7 +10,6 @@
 #include "core/no_links.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
-#include "input/mission/variants.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/layout.h"
 #include "output/dataset/metadata.h"

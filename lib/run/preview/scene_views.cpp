@@ -1,6 +1,5 @@
 #include "run/preview/scene_views.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>

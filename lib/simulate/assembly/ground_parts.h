@@ -5,7 +5,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "input/mission/mission.h"
 #include "input/mission/seabed_keys.h"

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/mission/variants.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/mesh_topology.h"
 #include "input/scene/seabed/seabed.h"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "input/mission/mission.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/scene_files.h"
 #include "input/scene/placed_file.h"

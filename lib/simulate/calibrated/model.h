@@ -3,10 +3,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "core/pose.h"
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/calibrated/beams/array_beams.h"

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "core/elementary.h"
-#include "core/random.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

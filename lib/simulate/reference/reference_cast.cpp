@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/scene.h"

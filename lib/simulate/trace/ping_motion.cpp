@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "core/elementary.h"
 #include "simulate/trace/sample_kinds.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <vector>
 
 #include "core/pose.h"
 #include "simulate/visibility/engine.h"

@@ -1,6 +1,5 @@
 #include "simulate/trace/target_surface.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>

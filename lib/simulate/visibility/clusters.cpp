@@ -1,10 +1,6 @@
 #include "simulate/visibility/clusters.h"
 
-#include <algorithm>
-#include <span>
 #include <utility>
-
-#include "input/scene/mesh_topology.h"
 
 namespace sonarsim {
 

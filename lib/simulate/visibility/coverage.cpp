@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/elementary.h"
-#include "simulate/visibility/view.h"
 
 namespace sonarsim {
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/engine_kind.h"
 #include "input/scene/scene.h"

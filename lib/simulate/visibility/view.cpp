@@ -1,9 +1,7 @@
 #include "simulate/visibility/view.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/elementary.h"
 #include "core/units.h"
 
 namespace sonarsim {

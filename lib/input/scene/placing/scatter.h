@@ -1,12 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "input/mission/seabed_keys.h"

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "core/file.h"
-#include "output/dataset/labelled_ping.h"
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/bathymetry.h"

@@ -1,9 +1,7 @@
 #include "simulate/calibrated/equation/bottom.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/elementary.h"
 #include "core/units.h"
 #include "input/scene/materials.h"
 #include "simulate/calibrated/signal/decibel.h"

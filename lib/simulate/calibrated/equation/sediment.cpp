@@ -1,7 +1,6 @@
 #include "simulate/calibrated/equation/sediment.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/units.h"

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/equation/wind_surface.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/units.h"

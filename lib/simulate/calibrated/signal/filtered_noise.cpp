@@ -1,7 +1,5 @@
 #include "simulate/calibrated/signal/filtered_noise.h"
 
-#include <algorithm>
-
 #include "core/lanes.h"
 #include "simulate/calibrated/signal/normals.h"
 

@@ -1,10 +1,8 @@
 #include "simulate/calibrated/signal/fourier.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/elementary.h"
-#include "core/lanes.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -1,6 +1,5 @@
 #include "simulate/calibrated/signal/near_field.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

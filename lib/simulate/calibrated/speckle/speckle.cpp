@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <optional>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/lanes.h"

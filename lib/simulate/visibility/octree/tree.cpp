@@ -2,11 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "simulate/visibility/rays/gap_estimate.h"
-
 namespace sonarsim {
 
 namespace {

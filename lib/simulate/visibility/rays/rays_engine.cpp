@@ -1,11 +1,9 @@
 #include "simulate/visibility/rays/rays_engine.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 #include <vector>
 
-#include "simulate/visibility/caster.h"
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/column_samples.h"
 #include "simulate/visibility/rays/ray_columns.h"
