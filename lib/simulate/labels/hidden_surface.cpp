@@ -69,33 +69,19 @@ class LineTracer {
     }
 
     void begin(std::vector<SightLine>& lines) {
-        nodes_.reserve(2 * lines.size());
         for (SightLine& line : lines) {
             line.last_node = static_cast<std::uint32_t>(nodes_.size());
             nodes_.push_back({owner_of(line), line.last_node});
         }
-        pieces_.reserve(2 * lines.size());
     }
 
-    /// Records the surface that a line has met. True if the line continues.
-    bool take(SightLine& line, const Intersection& met) {
-        line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
-        if (!(line.range_m < range_max_m_)) return false;
-        if (is_shadow(line)) {
-            // Hidden surface lies behind what hides it, however far its plane extends.
-            const float half_m = half_extent(line, line.range_m, met.normal);
-            const float near_m = std::max(line.range_m - half_m, line.before_m);
-            const float far_m = line.range_m + half_m;
-            pieces_.push_back({line.beam, owner_of(line), 0.5F * (near_m + far_m),
-                               0.5F * (far_m - near_m), line.solid_angle});
+    /// Records the surface that lines have met. Those that end there are removed.
+    void advance(std::vector<SightLine>& lines, std::span<const Intersection> met) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (take(lines[k], met[k])) lines[kept++] = lines[k];
         }
-        const std::uint32_t object = objects_.object_of(met.instance);
-        if (!has_met(nodes_, line.last_node, object)) {
-            solid_angles_[object].hidden += line.solid_angle;
-            nodes_.push_back({object, line.last_node});
-            line.last_node = static_cast<std::uint32_t>(nodes_.size() - 1);
-        }
-        return is_wanted(line);
+        lines.resize(kept);
     }
 
     HiddenSurface finish() {
@@ -106,6 +92,29 @@ class LineTracer {
     }
 
   private:
+    /// Records the surface that a line has met. True if the line continues.
+    bool take(SightLine& line, const Intersection& met) {
+        line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
+        if (!(line.range_m < range_max_m_)) return false;
+        if (is_shadow(line)) {
+            // Hidden surface lies behind what hides it, however far its plane extends.
+            const float half_m = half_extent(line, line.range_m, met.normal);
+            const float near_m = std::max(line.range_m - half_m, line.before_m);
+            const float far_m = line.range_m + half_m;
+            const float each = line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
+            for (std::uint32_t beam = line.beam; beam <= line.last_beam; ++beam)
+                pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
+                                   0.5F * (far_m - near_m), each});
+        }
+        const std::uint32_t object = objects_.object_of(met.instance);
+        if (!has_met(nodes_, line.last_node, object)) {
+            solid_angles_[object].hidden += line.solid_angle;
+            nodes_.push_back({object, line.last_node});
+            line.last_node = static_cast<std::uint32_t>(nodes_.size() - 1);
+        }
+        return is_wanted(line);
+    }
+
     std::uint32_t owner_of(const SightLine& line) const {
         return objects_.object_of(line.sample->instance);
     }
@@ -128,6 +137,7 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by) {
+    LineTracer tracer(view, objects, directions, by);
     std::vector<Ray> rays;
     std::vector<Intersection> met;
     const auto cast = [&](std::span<const SightLine> lines) {
@@ -138,27 +148,33 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
                                 met);
     };
-    LineTracer tracer(view, objects, directions, by);
     std::vector<SightLine> lines = sight_lines(
         traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
+    std::vector<SightLine> narrow;
     if (echoes.cones.exist()) {
         // Nothing lies behind most floors and walls, so one line finds out before many are cast.
         cast(lines);
-        std::vector<SightLine> with_surface;
+        const LineWidth width{echoes.cones, view.guards.joined};
+        std::vector<SightLine> wide;
         for (std::size_t k = 0; k < lines.size(); ++k) {
-            if (std::isfinite(met[k].distance_m)) with_surface.push_back(lines[k]);
+            if (!std::isfinite(met[k].distance_m)) continue;
+            if (is_narrow(lines[k], width)) {
+                met[narrow.size()] = met[k];
+                narrow.push_back(lines[k]);
+            } else {
+                wide.push_back(lines[k]);
+            }
         }
-        lines = divided(with_surface, echoes.cones,
-                        [&](const SightLine& line) { return tracer.is_wanted(line); });
+        tracer.begin(narrow);
+        tracer.advance(narrow, met);
+        lines = divided(wide, width, [&](const SightLine& line) { return tracer.is_wanted(line); });
     }
     tracer.begin(lines);
-    for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
+    for (int layer = 0; layer < max_surfaces_behind; ++layer) {
         cast(lines);
-        std::size_t going_on = 0;
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            if (tracer.take(lines[k], met[k])) lines[going_on++] = lines[k];
-        }
-        lines.resize(going_on);
+        tracer.advance(lines, met);
+        lines.insert(lines.end(), narrow.begin(), narrow.end());
+        narrow.clear();
     }
     return tracer.finish();
 }

@@ -27,20 +27,38 @@ SightLine line_behind(const Sample& sample, const Arrival& place, float share_u,
             .sample = &sample,
             .share_u = share_u,
             .share_v = share_v,
-            .beam = static_cast<std::uint32_t>(beam)};
+            .beam = static_cast<std::uint32_t>(beam),
+            .last_beam = static_cast<std::uint32_t>(beam)};
 }
 
-/// The number of parts, at least 1, of an edge across the line of sight: each spans one beam of the
-/// array, and two of their widths along the beam. With one width, 182 instead of 339 of 17,700 bins
-/// of shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
-/// Chosen there.
-int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const ConeBeams& cones) {
+/// The number of parts, at least 1, of an edge across the line of sight: each spans the least width,
+/// and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of shadow
+/// are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time. Chosen there.
+int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const LineWidth& width) {
     constexpr float along_beam = 2.0F;
     constexpr float most = 64.0F;
+    constexpr float wider = 0.3F;  // beams differ from their mean width
     const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
-    const float width = 0.5F * line.before_m * cones.mean_width();
-    const float parts = std::max(std::fabs(across.y()), across.norm() / along_beam) / width;
-    return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
+    const float beam_m = 0.5F * line.before_m * width.cones.mean_width();
+    const float parts = std::max(std::fabs(across.y()) / static_cast<float>(width.beams),
+                                 across.norm() / along_beam) /
+                        beam_m;
+    return static_cast<int>(std::ceil(std::clamp(parts - wider, 1.0F, most)));
+}
+
+/// Makes a line cover the beams whose middles its part of the footprint covers.
+void cover_beams(SightLine& line, const ConeBeams& cones) {
+    const auto sine_along = [&](const Eigen::Vector3f& edge) {
+        return std::fabs(edge.y() - line.direction.y() * line.direction.dot(edge)) / line.before_m;
+    };
+    const Sample& sample = *line.sample;
+    const float beyond = line.share_u * sine_along(sample.edge_u) +
+                         line.share_v * sine_along(sample.edge_v) - 0.5F * cones.mean_width();
+    if (!(beyond > 0.0F)) return;
+    const int first = cones.beam(line.direction.y() - beyond);
+    const int last = cones.beam(line.direction.y() + beyond);
+    if (first >= 0) line.beam = static_cast<std::uint32_t>(first);
+    if (last >= 0) line.last_beam = static_cast<std::uint32_t>(last);
 }
 
 /// The change of a plane's range along the half edge of the footprint in front of it.
@@ -58,7 +76,9 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
     std::vector<SightLine> lines;
     const auto add = [&](const Sample& sample, const Arrival& place, int beam) {
         const SightLine line = line_behind(sample, place, 1.0F, 1.0F, beam);
-        if (keep(line)) lines.push_back(line);
+        if (!keep(line)) return;
+        lines.push_back(line);
+        if (echoes.cones.exist()) cover_beams(lines.back(), echoes.cones);
     };
     if (echoes.cones.exist()) {
         for (const Sample& sample : samples.items) {
@@ -79,26 +99,32 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
     return lines;
 }
 
-std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones,
+bool is_narrow(const SightLine& line, const LineWidth& width) {
+    return parts_of(line.sample->edge_u, line, width) == 1 &&
+           parts_of(line.sample->edge_v, line, width) == 1;
+}
+
+std::vector<SightLine> divided(std::span<const SightLine> lines, const LineWidth& width,
                                const KeepLine& keep) {
     std::vector<SightLine> out;
     for (const SightLine& line : lines) {
         const Sample& sample = *line.sample;
-        const int rows = parts_of(sample.edge_u, line, cones);
-        const int columns = parts_of(sample.edge_v, line, cones);
+        const int rows = parts_of(sample.edge_u, line, width);
+        const int columns = parts_of(sample.edge_v, line, width);
         const float share_u = 1.0F / static_cast<float>(rows);
         const float share_v = 1.0F / static_cast<float>(columns);
         const Eigen::Vector3f middle = middle_of(sample, rows);
         for (int i = 0; i < rows; ++i) {
             const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
-            const float width = 1.0F + sample.wedge * u;
+            const float wider = 1.0F + sample.wedge * u;
             for (int j = 0; j < columns; ++j) {
                 const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
                 const Arrival place =
-                    arrival_of(middle + u * sample.edge_u + v * width * sample.edge_v);
-                const int beam = cones.beam(place.direction.y());
+                    arrival_of(middle + u * sample.edge_u + v * wider * sample.edge_v);
+                const int beam = width.cones.beam(place.direction.y());
                 if (beam < 0) continue;
-                const SightLine part = line_behind(sample, place, share_u, share_v * width, beam);
+                SightLine part = line_behind(sample, place, share_u, share_v * wider, beam);
+                cover_beams(part, width.cones);
                 if (keep(part)) out.push_back(part);
             }
         }

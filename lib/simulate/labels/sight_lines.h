@@ -20,7 +20,7 @@ struct SightLine {
     float solid_angle;
     const Sample* sample;
     float share_u, share_v;
-    std::uint32_t beam;
+    std::uint32_t beam, last_beam;  ///< those that its part of the footprint covers
     std::uint32_t last_node = 0;  ///< the last node of its way
 };
 
@@ -31,9 +31,18 @@ using KeepLine = std::function<bool(const SightLine&)>;
 std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
                                    const KeepLine& keep);
 
+/// The least parts of footprints that sight lines of a line array stand for.
+struct LineWidth {
+    const ConeBeams& cones;
+    int beams;  ///< that the array does not resolve
+};
+
+/// True if a line stands for no more than that.
+bool is_narrow(const SightLine& line, const LineWidth& width);
+
 /// Parts of the sight lines of a line array, since a sample may span many beams and much of the
 /// elevation.
-std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones,
+std::vector<SightLine> divided(std::span<const SightLine> lines, const LineWidth& width,
                                const KeepLine& keep);
 
 /// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
