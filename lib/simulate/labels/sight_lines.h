@@ -20,7 +20,7 @@ struct SightLine {
     float solid_angle;
     const Sample* sample;
     float share_u, share_v;
-    std::uint32_t beam, last_beam;  ///< those that its part of the footprint covers
+    std::uint32_t beam, last_beam;  ///< its part of the footprint covers them
     std::uint32_t last_node = 0;  ///< the last node of its way
 };
 
