@@ -9,6 +9,7 @@ import numpy as np
 import tool
 from PIL import Image
 from sonarsim.data import open_dataset
+from sonarsim.export import runs
 from sonarsim.export.split import of_poses
 from sonarsim.export.stand_out import Greys
 from tool import counts_of, disc, mask_of
@@ -185,6 +186,33 @@ class Export(tool.ToolTest):
         self.assertEqual([one["instance_id"] for one in self.coco()[1]["fls-000001.png"]], [2, 3])
         self.assertLess(faint["--min-grey", "0"], faint[()])
         self.assertLess(faint[()], faint["--min-grey", "200"])
+
+    def test_parts_of_masks(self):
+        """Each has one outline, and they hold all pixels."""
+        drawn = np.random.default_rng(2)
+        for share in (0.2, 0.5, 0.6, 0.8) * 20:
+            height, width = drawn.integers(2, 25, 2)
+            pixels = np.append(np.flatnonzero(drawn.random(height * width) < share), height * width)
+            parts = runs.parts(pixels, height)
+            self.assertEqual([len(runs.outlines(part, height)) for part in parts], [1] * len(parts))
+            self.assertEqual(len(runs.outlines(pixels, height)), len(parts))
+            np.testing.assert_array_equal(np.sort(np.concatenate(parts)), pixels)
+
+    def test_parts_that_no_eye_sees(self):
+        """A part of a mask that shows the bed alone is left out of it."""
+        path = self.out / "fls/objects/000001.json"
+        listed = json.loads(path.read_text())
+        disc, noise = fan_objects(1)[1][2], np.zeros((HEIGHT, WIDTH), bool)
+        noise[20:27, 4:11] = True
+        listed["objects"][1]["fan"]["mask"] = counts_of(disc | noise)
+        path.write_text(json.dumps(listed))
+        for words, expected in (((), disc), (("--min-grey", "0"), disc | noise)):
+            dest = self.folder / f"parts{len(words)}"
+            self.export(self.out, "--sensor", "fls", "--format", "coco", *words, dest=dest)
+            found = self.coco(dest=dest)[1]["fls-000001.png"][0]
+            mask = mask_of(found["segmentation"]["counts"], WIDTH, HEIGHT)
+            np.testing.assert_array_equal(mask, expected)
+            self.assertEqual((found["area"], found["bbox"]), (expected.sum(), box_of(expected)))
 
     def test_crops(self):
         """Around each object and of the bed, at a scale in metres; 1:1 a crop has the pixels of the picture."""

@@ -95,8 +95,20 @@ def with_pixels(objects, picture, pixels, options):
     if options.min_grey and objects:
         greys = Greys(pixels, [one["pixels"] for one in objects], [one["shadow"] for one in objects])
         for one in objects:
+            keep_visible_parts(one, greys, picture, options)
             one["grey"] = greys.difference(one["pixels"], one["box"], one["shadow"])
     return objects
+
+
+def keep_visible_parts(one, greys, picture, options):
+    """Leaves parts of an object out that do not stand out by themselves, but the largest."""
+    largest, *others = runs.parts(one["pixels"], picture.height)
+    kept = [largest, *(part for part in others if options.min_grey <= greys.difference(
+        part, runs.box_of(part, picture.height), None))]
+    if len(kept) <= len(others):
+        one["pixels"] = np.sort(np.concatenate(kept))
+        one["mask"] = runs.counts_of(one["pixels"], picture.width, picture.height)
+        one["area"], one["box"] = one["pixels"].size, runs.box_of(one["pixels"], picture.height)
 
 
 def is_kept(one, picture, options):

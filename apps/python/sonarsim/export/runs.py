@@ -58,6 +58,32 @@ def box_of(pixels, height):
     return (int(pixels[0] // height), int(pixels[-1] // height) + 1, int(rows.min()), int(rows.max()) + 1)
 
 
+def parts(pixels, height):
+    """The parts of a mask, joined by sides, as masks; the largest comes first."""
+    begins = np.flatnonzero((np.diff(pixels, prepend=-2) != 1) | (pixels % height == 0))     # runs within a column
+    lengths = np.diff(begins, append=pixels.size)
+    first = pixels[begins].tolist()
+    end = (pixels[begins] + lengths).tolist()
+    before = list(range(len(first)))        # a run of the same part; the first run of a part refers to itself
+
+    def root(run):
+        while before[run] != run:
+            run = before[run]
+        return run
+
+    near = 0
+    for run in range(len(first)):
+        while end[near] + height <= first[run]:
+            near += 1
+        for other in range(near, run):
+            if first[other] + height >= end[run]:
+                break
+            a, b = sorted((root(other), root(run)))
+            before[b] = a
+    owner = np.repeat([root(run) for run in range(len(first))], lengths)
+    return sorted((pixels[owner == one] for one in np.unique(owner)), key=len, reverse=True)
+
+
 def cut(pixels, height, frame):
     """The part of a mask in a frame (left, right, top, bottom), as a mask of a picture of the frame."""
     left, right, top, bottom = frame

@@ -5,6 +5,7 @@ from PIL import Image, ImageFilter
 REACH = 2       # pixels on either side whose mean an eye takes
 MARGIN = 6      # the least width of the surroundings
 MIDDLE = 64     # grey of a usual bed
+CELL = 50       # pixels of the mean that are one grain of it: few of them stand out by chance
 
 
 class Greys:
@@ -57,15 +58,15 @@ class Greys:
         return self.within(box)[0][rows - box[2], columns - box[0]] - (np.column_stack((rows, columns)) - middle) @ slope
 
     def difference(self, mask, box, shadow):
-        """By how many greys the brightest tenth of a mask is above its surroundings and their grain, or the mean of it or
-        of its shadow below these; as it looks on middle grey, since grain grows with the grey. An eye takes off an even
-        slope of the surroundings, but not a step: the larger of both."""
+        """By how many greys the brightest tenth of a mask is above its surroundings, their grain and what few grains add
+        by chance, or the mean of it or of its shadow below these; as it looks on middle grey, since grain grows with the
+        grey. An eye takes off an even slope of the surroundings, but not a step: the larger of both."""
         columns, rows = np.divmod(mask, len(self.grey))
         found = []
         for even in (False, True):
             around = median, _, _, grain = self.around(box, even)
-            own = self.flat(box, rows, columns, around)
-            found += [np.quantile(own, 0.9) - median - grain, median - own.mean()]
+            own, chance = self.flat(box, rows, columns, around), grain * np.sqrt(CELL / mask.size)
+            found += [np.quantile(own, 0.9) - median - grain - chance, median - own.mean() - chance]
             if shadow:
                 around = self.around(shadow, even)
                 places = (one.ravel() for one in np.mgrid[shadow[2]:shadow[3], shadow[0]:shadow[1]])
