@@ -154,7 +154,7 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
                     short_text(100.0 * *error->mean()), short_text(100.0 * *worst->relative_l1),
                     measured.size(), short_text(100.0 * goal, 4));
     if (const auto count = std::ranges::count_if(measured, &PingError::by_finer_image); count > 0)
-        text += fmt::format("; {} by the change to a third of that goal", count);
+        text += fmt::format("; {} by the change to a finer goal", count);
     if (unknown > 0.0)
         text += fmt::format("; in {} more it {}", error->pings.size() - measured.size(),
                             limit);

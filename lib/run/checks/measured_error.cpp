@@ -87,11 +87,14 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         return change_when_finer(sonar->settings, finer, scene, *then, T_world_sensor);
     };
     // The reference holds no multipath.
-    const double error = sonar->settings.multipath.on ? std::max(direct, change(0.1)) : direct;
+    const bool many_paths = sonar->settings.multipath.on;
+    const double with_paths = many_paths ? change(0.1) : 0.0;
+    const double error = std::max(direct, with_paths);
     if (truth.noise <= measurable * std::max(goal, error)) return {pose, error, truth.noise};
     if (mission.engine == EngineKind::octree || goal < least_refined_goal)
         return {pose, {}, truth.noise};
-    return {pose, std::max(error, change(1.0 / 3.0)), truth.noise, true};
+    // The noise may be all of `direct`.
+    return {pose, many_paths ? with_paths : change(1.0 / 3.0), truth.noise, true};
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace sonarsim {
 
 /// The error of one ping's image, as error_without_noise() estimates it. Where the noise of the
-/// reference is above half of both the error and the goal, it is the change to a third of the goal.
+/// reference is above half of both the error and the goal, it is the change to a finer goal.
 struct PingError {
     std::uint32_t pose = 0;
     /// Nothing where neither the reference nor a finer image tells it.

@@ -170,9 +170,11 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         lines = divided(wide, width, [&](const SightLine& line) { return tracer.is_wanted(line); });
     }
     tracer.begin(lines);
-    for (int layer = 0; layer < max_surfaces_behind; ++layer) {
+    for (int layer = 0; layer < max_surfaces_behind && !(lines.empty() && narrow.empty());
+         ++layer) {
         cast(lines);
         tracer.advance(lines, met);
+        // Narrow lines have met their first surface already.
         lines.insert(lines.end(), narrow.begin(), narrow.end());
         narrow.clear();
     }

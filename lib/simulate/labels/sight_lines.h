@@ -31,13 +31,13 @@ using KeepLine = std::function<bool(const SightLine&)>;
 std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
                                    const KeepLine& keep);
 
-/// The least parts of footprints that sight lines of a line array stand for.
+/// The width of sight lines of a line array.
 struct LineWidth {
     const ConeBeams& cones;
-    int beams;  ///< that the array does not resolve
+    int beams;  ///< so many beams, which the array does not resolve
 };
 
-/// True if a line stands for no more than that.
+/// True if the footprint of a line's sample is no wider.
 bool is_narrow(const SightLine& line, const LineWidth& width);
 
 /// Parts of the sight lines of a line array, since a sample may span many beams and much of the

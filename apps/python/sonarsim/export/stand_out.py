@@ -5,7 +5,7 @@ from PIL import Image, ImageFilter
 REACH = 2       # pixels on either side whose mean an eye takes
 MARGIN = 6      # the least width of the surroundings
 MIDDLE = 64     # grey of a usual bed
-CELL = 50       # pixels of the mean that are one grain of it: few of them stand out by chance
+CELL = 50       # pixels that one grain takes, two squares of the mean: few of them stand out by chance
 
 
 class Greys:
