@@ -28,7 +28,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import basin, bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
+from scenes import bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named, stock_named
 
@@ -47,20 +47,21 @@ def builders(cells: int, area: float) -> dict:
         "lifeboat": {"lifeboat.glb": lifeboat.build},
         "bathymetry": {"bathymetry.tif": bathymetry.build},
         "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
-        "basin": {"basin_floor.tif": basin.decibels},
+        "basin": {"basin_floor.tif": sediments.basin_decibels},
         "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},
     }
 
 
 def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
     """Writes the format that the ending of `name` asks for. Returns what the file holds."""
-    pixel_m = {"backscatter": sediments.MOSAIC_PIXEL_M, "basin_floor": basin.PIXEL_M}.get(name.stem, bathymetry.PIXEL_M)
+    pixel_m = {"backscatter": sediments.MOSAIC_PIXEL_M, "basin_floor": sediments.BASIN_PIXEL_M}.get(
+        name.stem, bathymetry.PIXEL_M)
     writers = {".png": sediments.write_png, ".tif": lambda path, rows: bathymetry.write_geotiff(path, rows, pixel_m),
                ".glb": write_glb}
-    size = writers[name.suffix](file, parts)
-    if name.suffix in (".tif", ".png"):
-        return f"{len(parts[0])} x {len(parts)} pixels, {size} bytes"
-    return f"{len(parts)} objects, {sum(part.triangles() for part in parts)} triangles, {size} bytes"
+    writers[name.suffix](file, parts)
+    content = (f"{len(parts)} objects, {sum(part.triangles() for part in parts)} triangles" if name.suffix == ".glb" else
+               f"{len(parts[0])} x {len(parts)} pixels")
+    return f"{content}, {file.stat().st_size} bytes"
 
 
 def write(path: pathlib.Path, build) -> None:

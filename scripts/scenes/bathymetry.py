@@ -36,7 +36,7 @@ def build():
 
 
 def write_geotiff(path, rows, pixel_m):
-    """Little-endian, not compressed, so that the bytes depend on no library. Returns their number."""
+    """Little-endian, not compressed, so that the bytes depend on no library."""
     scale = struct.pack("<3d", pixel_m, pixel_m, 0)
     tie_point = struct.pack("<6d", 0, 0, 0, WEST_M, NORTH_M, 0)
     # GeoTIFF keys: projected coordinates, a pixel is an area, EPSG:32632.
@@ -55,4 +55,3 @@ def write_geotiff(path, rows, pixel_m):
             value, behind = behind_at + len(behind), behind + value
         listed += struct.pack("<HHII", tag, kind, count, pixels_at if value is None else value)
     path.write_bytes(struct.pack("<2sHI", b"II", 42, 8) + listed + bytes(4) + behind + pixels)
-    return path.stat().st_size

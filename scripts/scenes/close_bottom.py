@@ -3,7 +3,7 @@ import math
 
 from .glb import Part
 from .noise import Draws, Relief
-from .shapes import add_quad, add_sphere, made
+from .shapes import add_grid, add_sphere, made
 
 CELL_M = 0.005
 FLOCS = 28
@@ -46,15 +46,8 @@ def build():
         below = 0.035 * math.exp(-(x / 0.35) ** 2)
         return -0.53 + 0.06 * y * y - below + swell(x, y) + stones(x, y) + rise
 
-    bottom = Part("bottom", "fitted_mud")
-    columns, rows = range(-32, 481), range(-230, 231)
-    numbers = {(i, j): bottom.add_vertex(CELL_M * i, CELL_M * j, height(CELL_M * i, CELL_M * j))
-               for j in rows for i in columns}
-    for j in rows[:-1]:
-        for i in columns[:-1]:
-            bottom.add_quad(numbers[i, j], numbers[i + 1, j], numbers[i + 1, j + 1],
-                            numbers[i, j + 1], material_at(CELL_M * i, CELL_M * j, ragged, draw))
-    return [bottom]
+    columns, rows = ([CELL_M * k for k in range(*ends)] for ends in ((-32, 481), (-230, 231)))
+    return [made("bottom", "fitted_mud", (add_grid, columns, rows, height, lambda x, y, _: material_at(x, y, ragged, draw)))]
 
 
 def flocs():
@@ -74,7 +67,7 @@ def flocs():
 
 def surface():
     """The surface of the water, at height 0."""
-    return [made("surface", "water_surface", (add_quad, (-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)))]
+    return [made("surface", "water_surface", (Part.add, [(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)], [range(4)]))]
 
 
 OBJECTS = {"close_bottom_flocs.glb": flocs, "close_bottom_surface.glb": surface}

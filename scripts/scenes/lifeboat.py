@@ -12,8 +12,8 @@ def half_breadth(u, v):
     return BEAM / 2 * max(0.0, 1 - abs(u) ** 2.6) ** 0.75 * v ** 0.45
 
 
-def hull_point(u, v, side, inset=0.0):
-    return LENGTH / 2 * u, side * max(0.0, half_breadth(u, v) - inset), DEPTH * v + 0.35 * u * u * v
+def hull_point(u, v, side):
+    return LENGTH / 2 * u, side * half_breadth(u, v), DEPTH * v + 0.35 * u * u * v
 
 
 def thwarts():

@@ -42,7 +42,6 @@ def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]
     base = mission.resolve().parent
     if "--paths-from" in options[:-1]:
         base = pathlib.Path(options[options.index("--paths-from") + 1]).resolve()
-    text = mission.read_text(encoding="utf-8", errors="replace")
-    text += "".join("\n" + option.split("=", 1)[-1] for option in options)
+    text = text_of(mission, [option.split("=", 1)[-1] for option in options])
     names = dict.fromkeys(value for value in values_in(text) if value.endswith((".glb", ".obj", ".tif", ".png")))
     return [pathlib.Path(os.path.normpath(base / name)) for name in names]

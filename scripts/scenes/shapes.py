@@ -17,8 +17,10 @@ def circle(n):
     return [(math.cos(2 * math.pi * k / n), math.sin(2 * math.pi * k / n)) for k in range(n)]
 
 
-def add_quad(part, a, b, c, d):
-    part.add_quad(*(part.add_vertex(*p) for p in (a, b, c, d)))
+def cells(columns, rows):
+    """The quads of a grid of points that are numbered row after row."""
+    wide = columns + 1
+    return [(a, a + 1, a + 1 + wide, a + wide) for j in range(rows) for a in range(j * wide, j * wide + columns)]
 
 
 def add_box(part, centre, size, yaw_deg=0.0):
@@ -28,12 +30,8 @@ def add_box(part, centre, size, yaw_deg=0.0):
     for dz in (-0.5, 0.5):
         for dx, dy in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
             x, y = dx * size[0], dy * size[1]
-            corners.append(part.add_vertex(centre[0] + cosine * x - sine * y,
-                                           centre[1] + sine * x + cosine * y,
-                                           centre[2] + dz * size[2]))
-    for a, b, c, d in ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6),
-                       (3, 0, 4, 7)):
-        part.add_quad(corners[a], corners[b], corners[c], corners[d])
+            corners.append((centre[0] + cosine * x - sine * y, centre[1] + sine * x + cosine * y, centre[2] + dz * size[2]))
+    part.add(corners, [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)])
 
 
 def frame_along(axis):
@@ -51,16 +49,12 @@ def frame_along(axis):
 def add_cylinder(part, start, end, radius, sides):
     """A closed cylinder between two points."""
     u, v = frame_along([b - a for a, b in zip(start, end)])
-    rings = []
-    for foot in (start, end):
-        rings.append([part.add_vertex(*(foot[k] + radius * (c * u[k] + s * v[k])
-                                        for k in range(3))) for c, s in circle(sides)])
-    tops = [part.add_vertex(*start), part.add_vertex(*end)]
+    rings = [[foot[k] + radius * (c * u[k] + s * v[k]) for k in range(3)] for foot in (start, end) for c, s in circle(sides)]
+    faces = []
     for k in range(sides):
         n = (k + 1) % sides
-        part.add_quad(rings[0][k], rings[0][n], rings[1][n], rings[1][k])
-        part.add_triangle(tops[0], rings[0][n], rings[0][k])
-        part.add_triangle(tops[1], rings[1][k], rings[1][n])
+        faces += [(k, n, sides + n, sides + k), (2 * sides, n, k), (2 * sides + 1, sides + k, sides + n)]
+    part.add([*rings, start, end], faces)
 
 
 def add_line(part, points, radius, sides):
@@ -73,24 +67,17 @@ def add_line(part, points, radius, sides):
 def add_sides(part, along, up, hull_point, is_there=lambda side, i, j: True):
     """Both sides of a hull by hull_point(u, v, side), u from -1 to 1 and v from 0 to 1."""
     for side in (-1, 1):
-        rows = [[part.add_vertex(*hull_point(2 * i / along - 1, j / up, side)) for i in range(along + 1)] for j in range(up + 1)]
-        for j in range(up):
-            for i in range(along):
-                if is_there(side, i, j):
-                    part.add_quad(rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i])
+        part.add([hull_point(2 * i / along - 1, j / up, side) for j in range(up + 1) for i in range(along + 1)],
+                 [face for face in cells(along, up) if is_there(side, face[0] % (along + 1), face[0] // (along + 1))])
 
 
 def add_torus(part, centre, ring_radius, tube_radius, around, across):
     """A torus that lies flat, its axis along z."""
-    rings = [[part.add_vertex(centre[0] + c * (ring_radius + tube_radius * p),
-                              centre[1] + s * (ring_radius + tube_radius * p),
-                              centre[2] + tube_radius * q) for p, q in circle(across)]
-             for c, s in circle(around)]
-    for i in range(around):
-        a, b = rings[i], rings[(i + 1) % around]
-        for j in range(across):
-            k = (j + 1) % across
-            part.add_quad(a[j], b[j], b[k], a[k])
+    points = [(centre[0] + c * (ring_radius + tube_radius * p), centre[1] + s * (ring_radius + tube_radius * p),
+               centre[2] + tube_radius * q) for c, s in circle(around) for p, q in circle(across)]
+    rings = [range(k * across, (k + 1) * across) for k in range(around)]
+    part.add(points, [(a[j], b[j], b[j + 1 - across], a[j + 1 - across]) for a, b in zip(rings, rings[1:] + rings[:1])
+                      for j in range(across)])
 
 
 def icosphere(levels):
@@ -123,24 +110,14 @@ def icosphere(levels):
 def add_sphere(part, centre, radii, levels, bumps=lambda direction: 1.0):
     """An ellipsoid; `bumps` scales its radius by direction."""
     points, faces = icosphere(levels)
-    first = len(part.vertices) // 3
-    for p in points:
-        scale = bumps(p)
-        part.add_vertex(*(centre[k] + radii[k] * scale * p[k] for k in range(3)))
-    for a, b, c in faces:
-        part.add_triangle(first + a, first + b, first + c)
+    part.add([[at + radius * scale * c for at, radius, c in zip(centre, radii, p)]
+              for p, scale in zip(points, map(bumps, points))], faces)
 
 
 def add_grid(part, xs, ys, height, material_of=None):
-    """The surface z = height(x, y) over a grid, two triangles per cell. `material_of` chooses the
-    material of a cell by the height of its corner."""
-    columns = len(xs)
-    first = len(part.vertices) // 3
-    for y in ys:
-        for x in xs:
-            part.add_vertex(x, y, height(x, y))
-    for j in range(len(ys) - 1):
-        row = first + j * columns
-        for i in range(row, row + columns - 1):
-            material = material_of(part.vertices[3 * i + 1]) if material_of else None
-            part.add_quad(i, i + 1, i + 1 + columns, i + columns, material)
+    """The surface z = height(x, y) over a grid, two triangles per cell, in a part of its own. material_of(x, y, z) chooses
+    the material of a cell by its corner."""
+    def material(face):
+        row, column = divmod(face[0], len(xs))
+        return material_of(xs[column], ys[row], part.vertices[3 * face[0] + 1])
+    part.add([(x, y, height(x, y)) for y in ys for x in xs], cells(len(xs) - 1, len(ys) - 1), material_of and material)

@@ -1,6 +1,7 @@
 """A concrete test tank with a few objects of other materials in its far half (x > 0)."""
+from .glb import Part
 from .noise import noise3
-from .shapes import add_box, add_cylinder, add_quad, add_sphere, add_torus, made
+from .shapes import add_box, add_cylinder, add_sphere, add_torus, made
 
 HALF_X, HALF_Y, DEPTH = 4.0, 3.0, 3.0  # of the water: 8 x 6 x 3 m, floor at z = 0, open top
 
@@ -14,7 +15,7 @@ def shell():
         "wall_west": ((-x, y, 0), (-x, y, z), (-x, -y, z), (-x, -y, 0)),
         "wall_south": ((-x, -y, 0), (-x, -y, z), (x, -y, z), (x, -y, 0)),
     }
-    return [made(name, "concrete", (add_quad, *corners)) for name, corners in walls.items()]
+    return [made(name, "concrete", (Part.add, corners, [range(4)])) for name, corners in walls.items()]
 
 
 def ladder():

@@ -1,22 +1,15 @@
 """A broken steel hull with ribs, lying over on a rippled bottom."""
 import math
 
-from .boulders import boulders
 from .glb import Part
 from .noise import Relief, noise3
+from .seafloor import boulders
 from .shapes import add_cylinder, add_grid, add_line, add_sides, made
 
 HALF = 30.0                             # half of the side of the bottom
 LENGTH, BEAM, DEPTH = 34.0, 8.0, 4.5    # the hull
 LIST = math.radians(18)                 # to port
 SUNK = 0.8                              # depth of the keel below z = 0
-
-
-def bottom(relief):
-    def height(x, y):
-        bend = 0.8 * math.sin(0.2 * x)
-        return relief(x, y) + 0.05 * math.sin(2 * math.pi * (y + bend) / 0.9)
-    return height
 
 
 def half_breadth(u, v):
@@ -54,7 +47,11 @@ def ribs():
 
 
 def build():
-    height = bottom(Relief(18.0, 0.2, 4, 11))
+    relief = Relief(18.0, 0.2, 4, 11)
+
+    def height(x, y):
+        bend = 0.8 * math.sin(0.2 * x)
+        return relief(x, y) + 0.05 * math.sin(2 * math.pi * (y + bend) / 0.9)
     axis = [2 * HALF * k / 260 - HALF for k in range(261)]
     return ([made("floor", "sand", (add_grid, axis, axis, height)), plating(), ribs(),
              made("keel", "steel", (add_cylinder, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)),

@@ -403,13 +403,9 @@ def own_file(folder, inner, is_folder=False):
     """The path of a file, or folder, in a folder. ValueError where it is missing or lies behind a link."""
     path = folder / inner
     there = path.is_dir() if is_folder else path.is_file()
-    if not there or is_behind_link(folder, inner):
+    if not there or os.path.realpath(path) != os.path.join(os.path.realpath(folder), inner):
         raise DataError(f"{path}: is missing, or lies behind a link")
     return path
-
-
-def is_behind_link(folder, inner):
-    return os.path.realpath(folder / inner) != os.path.join(os.path.realpath(folder), inner)
 
 
 def read_png(data):

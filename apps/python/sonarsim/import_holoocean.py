@@ -174,19 +174,18 @@ def yaml_lines(items, indent=""):
 
 
 def convert(arguments):
-    out = arguments.out
     try:
         with open(arguments.scenario, encoding="utf-8") as file:
             top = json.load(file)
     except (ValueError, RecursionError) as fault:
         raise ValueError(f"{arguments.scenario} is not JSON: {fault}") from fault
     text = "\n".join([*yaml_lines(mission_of(top if isinstance(top, dict) else {}, arguments)), ""])
-    if not out:
+    if not arguments.out:
         print(text, end="")
-    elif os.path.exists(out):
-        raise ValueError(f"{out} is there already: name another file, or remove it")
+    elif os.path.exists(arguments.out):
+        raise ValueError(f"{arguments.out} is there already: name another file, or remove it")
     else:
-        with replaced(out) as part:
+        with replaced(arguments.out) as part:
             part.write_text(text, "utf-8")
 
 
@@ -196,8 +195,7 @@ def main():
     parser.add_argument("--out", metavar="FILE", help="the mission, a new file (default: standard output)")
     parser.add_argument("--scene", metavar="FILE", default="scene.glb", help="the scene of the mission")
     parser.add_argument("--materials", metavar="FILE", default="materials.csv", help="a CSV; HoloOcean's own is one")
-    arguments = parser.parse_args()
-    return run("import-holoocean", convert, arguments)
+    return run("import-holoocean", convert, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -99,8 +99,7 @@ class Ping:
     @functools.cached_property
     def metadata(self) -> dict[str, Any]:
         """The content of meta/NNNNNN.json."""
-        metadata: dict[str, Any] = json.loads(self._metadata)
-        return metadata
+        return dict(json.loads(self._metadata))
 
     def __repr__(self) -> str:
         of = "" if self.variant is None else f" of variant {self.variant}"
@@ -116,25 +115,14 @@ class Mission:
         self._loaded = loaded
         self.variants = Variants(loaded)
         """Its variants, each a mission without variants; empty if it has none."""
-
-    @property
-    def name(self) -> str:
-        return self._loaded.name
-
-    @property
-    def seed(self) -> int:
-        return self._loaded.seed
+        self.name, self.seed = loaded.name, loaded.seed
+        self.sensor_names = [name for name, _ in loaded.sensors]
+        """The names of the sonars, in the order of the mission."""
 
     @functools.cached_property
     def description(self) -> dict[str, Any]:
         """The dataset.json of the dataset that `sonarsim render` would begin."""
-        description: dict[str, Any] = json.loads(self._one().describe())
-        return description
-
-    @property
-    def sensor_names(self) -> list[str]:
-        """The names of the sonars, in the order of the mission."""
-        return [name for name, _ in self._loaded.sensors]
+        return dict(json.loads(self._one().describe()))
 
     @functools.cached_property
     def sensors(self) -> dict[str, Sensor]:
@@ -231,17 +219,10 @@ class Mission:
         return range(len(names)) if sensor is None else (_index_of(sensor, names),)
 
     def _jobs(self, sensor: str | None, shard: tuple[int, int]) -> Iterator[Callable[[], Ping]]:
-        index, count = shard
-        at = 0
-        everies = [every for _, every in self._loaded.sensors]
-        chosen = self._chosen(sensor)
-        for number in range(self._loaded.pose_count()):
-            for k in chosen:
-                if number % everies[k]:
-                    continue
-                if at % count == index:
-                    yield functools.partial(self._make, number, k)
-                at += 1
+        chosen = [(k, self._loaded.sensors[k][1]) for k in self._chosen(sensor)]
+        numbers = ((number, k) for number in range(self._loaded.pose_count()) for k, every in chosen if number % every == 0)
+        for number, k in itertools.islice(numbers, shard[0], None, shard[1]):
+            yield functools.partial(self._make, number, k)
 
     def _pings(self, sensor: str | None, threads: int, *shards: tuple[int, int]) -> Iterator[Ping]:
         """The pings of a shard; with more of them, of a shard of that shard."""
@@ -264,9 +245,8 @@ class Mission:
     def _make(self, number: int, index: int) -> Ping:
         image, arrays, texts, metadata = self._loaded.ping(number, index)
         raw = arrays.pop("raw", None)
-        labels: dict[str, Any] = dict(arrays)
-        for name, (extension, text) in texts.items():
-            labels[name] = json.loads(text) if extension == ".json" else text
+        labels: dict[str, Any] = arrays | {name: json.loads(text) if extension == ".json" else text
+                                           for name, (extension, text) in texts.items()}
         variant = self._loaded.variant
         return Ping(self._loaded.sensors[index][0], number, None if variant < 0 else variant, image, raw,
                     labels, self.poses[number].copy(), metadata)

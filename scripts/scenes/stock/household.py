@@ -1,7 +1,7 @@
 """Things of houses, yards and boats. A function a kind: draws to parts; sizes are usual ones."""
 import math
 
-from .solids import ball, box, lathe, moved, part, resting, ring, rod, sheet, tube, turned, walk, warped
+from .solids import ball, box, lathe, moved, part, resting, rod, sheet, tube, turned, walk, warped
 
 
 def lying(draw, share=0.75):

@@ -3,7 +3,7 @@ import math
 
 from ..glb import Part
 from ..noise import Draws, noise3
-from ..shapes import circle, frame_along, icosphere
+from ..shapes import cells, circle, frame_along, icosphere, made
 
 
 class Draw(Draws):
@@ -94,11 +94,7 @@ def sheet(columns, rows, surface, thickness):
     """A sheet with a thickness along z; surface(u, v) for u, v in 0..1 gives its points."""
     top = [surface(i / columns, j / rows) for j in range(rows + 1) for i in range(columns + 1)]
     count, wide = len(top), columns + 1
-    faces = []
-    for j in range(rows):
-        for i in range(columns):
-            a = j * wide + i
-            faces += [(a, a + 1, a + 1 + wide), (a, a + 1 + wide, a + wide)]
+    faces = [half for a, b, c, d in cells(columns, rows) for half in ((a, b, c), (a, c, d))]
     faces += [(c + count, b + count, a + count) for a, b, c in faces]
     rim = [i for i in range(columns)] + [j * wide + columns for j in range(rows)] \
         + [rows * wide + i for i in range(columns, 0, -1)] + [j * wide for j in range(rows, 0, -1)]
@@ -175,14 +171,5 @@ def resting(pieces, turn=(0, 0, 0), dent=0.0, seed=1):
         pieces = [(name, material, [warped(s, dented) for s in solids]) for name, material, solids in pieces]
         every = [p for _, _, solids in pieces for s in solids for p in s[0]]
     low, high = ([f(axis) for axis in zip(*every)] for f in (min, max))
-    parts = []
-    for name, material, solids in pieces:
-        made = Part(name, material)
-        for vertices, faces in solids:
-            first = len(made.vertices) // 3
-            for x, y, z in vertices:
-                made.add_vertex(x - (low[0] + high[0]) / 2, y - (low[1] + high[1]) / 2, z - low[2])
-            for a, b, c in faces:
-                made.add_triangle(first + a, first + b, first + c)
-        parts.append(made)
-    return parts
+    move = -(low[0] + high[0]) / 2, -(low[1] + high[1]) / 2, -low[2]
+    return [made(name, material, *((Part.add, *moved(s, *move)) for s in solids)) for name, material, solids in pieces]

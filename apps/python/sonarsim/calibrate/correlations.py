@@ -68,10 +68,6 @@ def pulse_of(instrument, kind):
     return Pulse(instrument["receiver"], instrument["pulse"]["side_lobe_db"], kind)
 
 
-def bins_of(instrument, range_step_m):
-    return instrument["pulse"]["resolution_m"] / range_step_m or 1.0
-
-
 def pulse_at(widths, side_lobe_db):
     """The amplitude of the compressed pulse some half-power widths off its peak."""
     pedestal, half_power = taper(side_lobe_db)

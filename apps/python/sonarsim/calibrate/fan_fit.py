@@ -66,20 +66,16 @@ def features(greys):
     if usable.sum() < LEAST_BLOCKS:
         return rings, np.full(3, np.nan), np.nan
     blocks, mean = blocks[usable], mean[usable]
-
-    grain = np.sqrt(np.maximum(variance_of(blocks), 1e-6)) / mean
+    # Half the mean square difference of values half a block apart along range, without that of a trend.
+    off = blocks[:, BLOCK // 2:] - blocks[:, :BLOCK // 2]
+    variance = 0.5 * (off**2).mean(axis=(1, 2)) - 0.5 * off.mean(axis=(1, 2)) ** 2
+    grain = np.sqrt(np.maximum(variance, 1e-6)) / mean
     # Edges and texture of a scene make blocks coarser: a low quantile is that of speckle.
     third = np.searchsorted(np.quantile(mean, (1 / 3, 2 / 3)), mean)
     grains = [np.log(np.quantile(grain[third == k], 0.3)) if (third == k).any() else np.nan for k in range(3)]
     even = np.log(np.maximum(blocks[grain <= np.median(grain)], 0.5))
     even -= even.mean(axis=(1, 2), keepdims=True)
     return rings, np.array(grains), (even**3).mean() / (even**2).mean() ** 1.5
-
-
-def variance_of(blocks):
-    """Half the mean square difference of values half a block apart along range, without that of a trend."""
-    off = blocks[:, BLOCK // 2:] - blocks[:, :BLOCK // 2]
-    return 0.5 * (off**2).mean(axis=(1, 2)) - 0.5 * off.mean(axis=(1, 2)) ** 2
 
 
 def fit_numbers(displays, law, measured, first, ring_error):

@@ -35,15 +35,11 @@ class Fit:
 def fit_image(recording, start):
     """Fits pings. CalibrationError for values that are not from a sonar."""
     fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db, start=start.instrument)
-
-    def find():
-        from_m = fit.instrument["receiver"]["tvg_from_m"]
-        fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, from_m)
     bits = np.log2(recording.law.full_value + 1.0)
     if bits in range(8, 17):
         fit.set("receiver.bits", int(bits))
     try:
-        fit_laws(recording, fit, find)
+        fit_laws(recording, fit, start.absorption_db_per_m)
     except FewPatches as fault:
         fit.lacks.append("even patches of speckle between the ends of the scale")
         if not recording.law.full_value:
@@ -103,11 +99,14 @@ def state_law(fit, law, why):
             {"amplitude": 1.0, "power": 2.0, "gamma": law.exponent}[law.kind])
 
 
-def fit_laws(recording, fit, find):
+def fit_laws(recording, fit, absorption):
     """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, if there are
     enough, since even patches of echoes may hold a texture of the bottom."""
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
     statistics, offset = receiver_statistics(receiver), receiver["offset"]
+
+    def find():
+        fit.noise = fit_noise(noise_blocks(recording, fit.law), absorption, receiver["tvg_from_m"])
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
     patches, noise, _ = classified(recording, fit.law, fit.noise)
@@ -121,7 +120,6 @@ def fit_laws(recording, fit, find):
 
 
 def fit_pulse_and_beams(recording, fit):
-    """Sets pulse and beams."""
     patches, noise, echoes = classified(recording, fit.law, fit.noise)
     of_echoes = len(noise) < LEAST_PATCHES
     chosen = echoes if of_echoes else noise

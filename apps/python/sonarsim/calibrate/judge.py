@@ -3,7 +3,7 @@ import typing
 
 import numpy as np
 
-from .correlations import bins_of, predicted_correlations, pulse_of
+from .correlations import predicted_correlations, pulse_of
 from .law import full_value_of, stated_law
 from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
@@ -45,7 +45,7 @@ def classified(recording, law, noise):
 
 def figures_of(recording, instrument, level_db, start, fit):
     """The figures of noise and of echoes, where the pings determine them. `fit` has the blocks of noise."""
-    receiver, bins = instrument["receiver"], bins_of(instrument, recording.range_step_m)
+    receiver, bins = instrument["receiver"], instrument["pulse"]["resolution_m"] / recording.range_step_m or 1.0
     statistics = receiver_statistics(receiver)
     law = stated_law(receiver, full_value_of(recording), statistics)
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],

@@ -38,7 +38,8 @@ class Patches:
                     for b in (slice(half), slice(half, None)) if x[:, a, b].size]
         return {"mean_value": values.mean(axis=(1, 2)), "mean": x.mean(axis=(1, 2)),
                 "at_zero": (values <= 0.0).mean(axis=(1, 2)), "at_full": (values >= self.full_value).mean(axis=(1, 2)),
-                "variance": structure(x, rows // 2, columns // 2), "slope": slope_of(x, rows // 2), "third": third_moment(x),
+                "variance": structure(x, rows // 2, columns // 2), "third": third_moment(x),
+                "slope": (x[:, rows // 2:] - x[:, :rows - rows // 2]).mean(axis=(1, 2)),
                 "along_range": np.stack([structure(x, lag, 0) for lag in range(1, LAGS + 1)], axis=1),
                 "along_beams": np.stack([structure(x, 0, lag) for lag in range(1, LAGS + 1)], axis=1),
                 "between": np.var(quarters, axis=0) * len(quarters) / max(len(quarters) - 1, 1)}
@@ -103,11 +104,6 @@ def structure(x, rows, columns):
     off = x[:, rows:, columns:] - x[:, :down, :across]
     other = x[:, rows:, :across] - x[:, :down, columns:]
     return 0.25 * ((off**2).mean(axis=(1, 2)) + (other**2).mean(axis=(1, 2)))
-
-
-def slope_of(x, rows):
-    """The mean difference of values `rows` apart."""
-    return (x[:, rows:] - x[:, :x.shape[1] - rows]).mean(axis=(1, 2))
 
 
 def third_moment(x):

@@ -63,7 +63,6 @@ def preset_file(name):
 
 
 def read_start(name):
-    """The preset to start with."""
     file = preset_file(name)
     try:
         with open(file, encoding="utf-8") as stream:

@@ -96,6 +96,9 @@ class LogStatistics:
         return np.interp(k2, self.known, self.correlations)
 
 
+statistics_of = functools.lru_cache(16)(LogStatistics)
+
+
 def delivered(x, samples, combine):
     """The largest or mean power of some samples that has the rank of the power x of one."""
     if samples == 1.0:
@@ -106,11 +109,5 @@ def delivered(x, samples, combine):
     return np.where(x < 0.7, special.gammaincinv(samples, below), special.gammainccinv(samples, np.exp(-x))) / samples
 
 
-@functools.lru_cache(16)
-def statistics_of(samples, combine, expansion):
-    return LogStatistics(samples, combine, expansion)
-
-
 def receiver_statistics(receiver):
-    """The statistics of the values of a receiver."""
     return statistics_of(*(receiver[key] for key in ("samples", "combine", "expansion")))

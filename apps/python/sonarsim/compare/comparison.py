@@ -1,8 +1,6 @@
 """Compares two recordings figure by figure (docs/calibrate.md)."""
 import dataclasses
 
-import numpy as np
-
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
 from .images import have_one_grid, images_of, patch_size_of, zones_of

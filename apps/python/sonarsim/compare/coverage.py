@@ -59,7 +59,6 @@ def cover_text(covers):
 
 
 def cover_json(real, covers):
-    """The covers as a dict for JSON."""
     return {"format": "sonarsim cover", "format_version": 1, "real": {"name": real.name, "pings": len(real)},
             "figures_inside": sum(one.is_inside for one in covers),
             "figures": [{**dataclasses.asdict(one), "inside": one.is_inside} for one in covers]}

@@ -42,7 +42,6 @@ class Images:
         return self.first_range_m + self.range_step_m * np.arange(self.shape[0])
 
     def mean_powers(self):
-        """The mean power of each range."""
         return self.powers.mean(axis=(0, 2), dtype=np.float64)
 
 

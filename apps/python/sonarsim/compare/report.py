@@ -30,7 +30,6 @@ def comparison_text(c):
 
 
 def comparison_json(c):
-    """The comparison as a dict for JSON."""
     first = c.first_change
     return {
         "format": "sonarsim comparison", "format_version": 3, "real": {"name": c.real.name, "pings": len(c.real)},

@@ -31,9 +31,11 @@ def block_figures(images, grid, zone, sizes_m):
     for side in sides:
         powers[side] /= trend_of(powers[side], used[side], images.ranges_m)[:, None]
     out, middle_m = [], images.ranges_m[(zone[0] + zone[1]) // 2 if zone[1] < count else count // 2]
+    if not images.columns_are_pings:
+        column_rad = np.ptp(images.bearing_rad[[0, -1]]) / max(len(images.bearing_rad) - 1, 1) or 1.0
     for metres in sizes_m:
         height = max(1, round(metres / images.range_step_m))
-        width = height if images.columns_are_pings else max(1, round(metres / (middle_m * columns_rad(images))))
+        width = height if images.columns_are_pings else max(1, round(metres / (middle_m * column_rad)))
         rows, columns = count // height, images.shape[1] // width
         if not rows * columns:
             continue
@@ -45,10 +47,6 @@ def block_figures(images, grid, zone, sizes_m):
             out.append(Figure.of(f"means over {metres:.2g} m: spread, dB", "spread", "texture", grid.place_of(row, column),
                                  np.arange(len(level))[:, None, None], level))
     return out
-
-
-def columns_rad(images):
-    return abs(images.bearing_rad[-1] - images.bearing_rad[0]) / max(len(images.bearing_rad) - 1, 1) or 1.0
 
 
 def trend_of(powers, used, ranges_m):

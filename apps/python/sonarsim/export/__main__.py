@@ -13,7 +13,6 @@ from ..command import need, run
 need("export", "numpy", "PIL")
 
 from . import formats, pings, split
-from .destination import destination
 from .pieces import prepare
 from .source import Source
 from .statistics import Statistics
@@ -126,7 +125,7 @@ def export(options):
     statistics = Statistics(source.classes)
     if options.format == "masks" and len(source.classes) > 255:
         raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
-    with destination(options.dest, options.folders) as folder:
+    with formats.destination(options.dest, options.folders) as folder:
         layout = formats.KINDS[options.format](folder, source.classes, info, options)
         for pieces, left_out in prepare_all(source.pictures, source.numbers, options):
             for what, count in left_out.items():

@@ -1,13 +1,15 @@
-"""The layouts of trainers: each has add(piece) for every exported picture, and finish()."""
+"""The layouts of trainers: each has add(piece) for every exported picture, and finish(); and what writes their files."""
+import contextlib
 import hashlib
 import io
 import json
 import os
+import pathlib
 import re
 import shutil
 import tarfile
 
-from ..command import naming
+from ..command import naming, new_folder
 from . import runs
 from .pieces import colour_of
 from .split import PARTS
@@ -15,6 +17,20 @@ from .split import PARTS
 SHARD_BYTES = 256 << 20
 LONGEST_MEMBER = 100        # in a tar archive of the format ustar
 DIGITS = {"range_m": 3, "bearing_deg": 2, "contrast_db": 2, "visible_share": 4, "shadow_contrast_db": 2}
+
+
+@contextlib.contextmanager
+def destination(dest, sources):
+    """The folder to write into, DEST.part. It becomes DEST if no exception comes, else nothing is left."""
+    dest = pathlib.Path(os.path.abspath(dest))
+    for source in sources:
+        if pathlib.Path(os.path.realpath(dest)).is_relative_to(os.path.realpath(source)):
+            raise ValueError(f"{dest}: lies in the dataset; choose a folder outside of it")
+    if dest.is_symlink() or dest.exists() and not (dest.is_dir() and not any(dest.iterdir())):
+        raise ValueError(f"{dest}: holds something already; choose another folder, or remove it")
+    with new_folder(dest) as part:
+        yield part
+        os.sync()
 
 
 def place(folder, name, content, link=False):

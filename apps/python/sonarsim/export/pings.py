@@ -3,7 +3,7 @@ import pathlib
 
 from ..data import DataError
 from . import clouds, holoocean, robot
-from .destination import destination
+from .formats import destination
 from .source import named_datasets, require_known
 
 # The writer of each, and its options beside --sensor.

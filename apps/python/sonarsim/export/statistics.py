@@ -43,7 +43,6 @@ class Statistics:
                 "all": self.all.as_json(), "parts": {name: one.as_json() for name, one in self.parts.items()}}
 
     def text(self):
-        """A few lines for the terminal."""
         lines = [f"{name}: {one.pictures} pictures, {one.without_objects} of them without an object"
                  for name, one in self.parts.items()]
         rows = [[one["name"], len(one["objects"]), one["pictures"], one["annotations"], one["ignored"]]

@@ -12,7 +12,6 @@ KINDS = {"sidescan": "sidescan", "echosounder": "echosounder", "scanning": "scan
 
 
 def read_dataset(folder, name, most_pings):
-    """The recording of a sensor of a dataset."""
     dataset = data.open_dataset(folder)
     names = list(dataset.sensors)
     if not dataset.complete:

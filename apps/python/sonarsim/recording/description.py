@@ -70,7 +70,6 @@ class Section:
 
 
 def read_yaml(path, largest):
-    """The content of a YAML file."""
     try:
         if path.stat().st_size > largest:
             raise RecordingError(f"{path}: is larger than {largest >> 20} MB")

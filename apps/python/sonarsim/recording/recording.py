@@ -74,7 +74,6 @@ class Recording:
     notes: list = dataclasses.field(default_factory=list)   # what a reader left out
 
     def __len__(self):
-        """The number of pings."""
         return len(self.soundings.range_m if self.kind == "soundings" else self.values)
 
     @property
