@@ -36,27 +36,20 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
             throw InputError(where, "more than " + std::to_string(max_columns) + " fields");
         }
         const std::size_t start = line.find_first_not_of(" \t", at);
-        if (start != std::string_view::npos && line[start] == '"') {
-            at = start;
-            std::string field = read_quoted(line, at, where);
-            const std::size_t next = line.find(',', at);
-            if (!trim(line.substr(at, next - at)).empty()) {
-                throw InputError(where, "text after the closing quote of field '" + field + "'");
-            }
-            fields.emplace_back(trim(field));
-            at = next;
-        } else {
-            const std::size_t next = line.find(',', at);
-            const std::string_view field = trim(line.substr(at, next - at));
-            if (field.find('"') != std::string_view::npos) {
-                throw InputError(where, "a quote inside of a field that does not start with one: " +
-                                            std::string(field));
-            }
-            fields.emplace_back(field);
-            at = next;
+        const bool is_quoted = start != std::string_view::npos && line[start] == '"';
+        std::string field;
+        if (is_quoted) field = read_quoted(line, at = start, where);
+        const std::size_t next = line.find(',', at);
+        const std::string_view rest = trim(line.substr(at, next - at));
+        if (is_quoted && !rest.empty())
+            throw InputError(where, "text after the closing quote of field '" + field + "'");
+        if (rest.find('"') != std::string_view::npos) {
+            throw InputError(where, "a quote inside of a field that does not start with one: " +
+                                        std::string(rest));
         }
-        if (at == std::string_view::npos) return fields;
-        ++at;
+        fields.emplace_back(is_quoted ? trim(field) : rest);
+        if (next == std::string_view::npos) return fields;
+        at = next + 1;
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.h"
+
 namespace sonarsim {
 
 std::string Location::text() const {
@@ -23,9 +25,7 @@ void ErrorList::add(const InputError& error) {
 
 void ErrorList::raise() const {
     if (kept_.empty()) return;
-    std::string all;
-    for (const std::string& text : kept_)
-        all += (all.empty() ? "" : "\n") + text;
+    std::string all = listed(kept_, "\n");
     if (count_ > kept_.size())
         all += "\nand " + std::to_string(count_ - kept_.size()) + " more errors like these";
     throw InputError(all);

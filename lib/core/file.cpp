@@ -50,9 +50,9 @@ void write_bytes(const std::filesystem::path& path, std::string_view bytes, Dura
     const auto put = move_all(bytes.size(), [&](std::size_t done) {
         return ::write(file.get(), bytes.data() + done, bytes.size() - done);
     });
-    if (put != bytes.size()) throw_errno("cannot write", path);
-    if (durable == Durable::yes && ::fsync(file.get()) != 0) throw_errno("cannot write", path);
-    if (!file.close()) throw_errno("cannot write", path);
+    if (put != bytes.size() || (durable == Durable::yes && ::fsync(file.get()) != 0) ||
+        !file.close())
+        throw_errno("cannot write", path);
 }
 
 /// Makes the names in a folder durable.
@@ -159,9 +159,8 @@ void StreamedFile::append(std::string_view bytes) {
 }
 
 void StreamedFile::put(std::string_view bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
         throw_errno("cannot write", atomic_file_.part());
-    }
 }
 
 void StreamedFile::finish() {

@@ -14,21 +14,11 @@ namespace sonarsim {
 
 namespace {
 
-class Sha256 {
-  public:
-    Sha256() { sha256_init(&context_); }
-    void add(std::string_view bytes) {
-        sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
-    }
-    std::string digest() {
-        std::array<std::uint8_t, SHA256_DIGEST_SIZE> bytes;
-        sha256_digest(&context_, bytes.size(), bytes.data());
-        return hex_text(bytes);
-    }
-
-  private:
-    sha256_ctx context_;
-};
+std::string digest(sha256_ctx& hash) {
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> bytes;
+    sha256_digest(&hash, bytes.size(), bytes.data());
+    return hex_text(bytes);
+}
 
 }  // namespace
 
@@ -46,25 +36,27 @@ std::string fnv1a_128(std::string_view bytes) {
 }
 
 std::string sha256(std::string_view bytes) {
-    Sha256 hash;
-    hash.add(bytes);
-    return hash.digest();
+    sha256_ctx hash;
+    sha256_init(&hash);
+    sha256_update(&hash, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+    return digest(hash);
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
     const Descriptor file(path, O_RDONLY);
     if (file.get() < 0) throw_errno("cannot read", path);
-    Sha256 hash;
-    std::vector<char> piece(std::size_t{1} << 18);
+    sha256_ctx hash;
+    sha256_init(&hash);
+    std::vector<std::uint8_t> piece(std::size_t{1} << 18);
     for (std::size_t size = piece.size(); size == piece.size();) {
         const auto got = move_all(piece.size(), [&](std::size_t done) {
             return ::read(file.get(), piece.data() + done, piece.size() - done);
         });
         if (!got) throw_errno("cannot read", path);
         size = *got;
-        hash.add({piece.data(), size});
+        sha256_update(&hash, size, piece.data());
     }
-    return hash.digest();
+    return digest(hash);
 }
 
 }  // namespace sonarsim

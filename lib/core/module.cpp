@@ -4,8 +4,6 @@
 
 #include <system_error>
 
-#include "core/error.h"
-
 namespace sonarsim {
 
 namespace {
@@ -45,23 +43,27 @@ std::filesystem::path module_of_python() {
     return file.extension() == ".so" ? std::filesystem::canonical(file, unknown) : "";
 }
 
-void* module_symbol(const std::string& name, const char* symbol, const std::string& package) {
+void* module_symbol(const std::string& name, const char* symbol, const std::string& package,
+                    const Location& where) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(where, "cannot be read: " + why);
+    };
     const std::string title = "the module libsonarsim_" + name + ".so";
     const std::filesystem::path file = file_of_module(name);
     if (file.empty()) {
-        throw InputError(title + " is not installed with this program; install " + package +
-                         " and build sonarsim again, or install sonarsim's Debian package");
+        refuse(title + " is not installed with this program; install " + package +
+               " and build sonarsim again, or install sonarsim's Debian package");
     }
     void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) {
         const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): glibc has one a thread
-        throw InputError(title + " cannot be loaded (" + (reason ? reason : "unknown reason") +
-                         "); install " + package);
+        refuse(title + " cannot be loaded (" + (reason ? reason : "unknown reason") +
+               "); install " + package);
     }
     void* found = dlsym(module, symbol);
     if (found == nullptr) {
-        throw InputError(file.string() +
-                         " belongs to another version of sonarsim; install or build it again");
+        refuse(file.string() +
+               " belongs to another version of sonarsim; install or build it again");
     }
     return found;
 }

@@ -34,6 +34,15 @@ std::size_t utf8_length(std::string_view text);
 /// bytes that are not UTF-8 become "\\x1b" and the like.
 std::string printable(std::string_view text);
 
+/// "a, b, c".
+template <class Texts>
+std::string listed(Texts&& texts, std::string_view separator = ", ") {
+    std::string out;
+    for (const auto& text : texts)
+        out.append(out.empty() ? "" : separator).append(text);
+    return out;
+}
+
 /// " (did you mean 'x'?)" with the candidate nearest to `word` by edit distance, or "" when none
 /// is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);

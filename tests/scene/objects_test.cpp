@@ -23,7 +23,8 @@ TEST_CASE("objects: nodes by themselves, classes of the file, groups of the miss
     CHECK(objects.objects.size() == 4);
     CHECK(objects.classes == std::vector<std::string>{"floor", "ship_hull", "stone", "ship_mast"});
 
-    const std::vector<ClassRule> rules{{"ship_*", "ship", "ship_1", {}}, {"*", "other", "", {}}};
+    const std::vector<ClassConfig> rules{{"ship_*", "", "ship", "ship_1", {}},
+                                         {"*", "", "other", "", {}}};
     objects = group_objects(scene, rules);
     CHECK(objects.object_of_instance == std::vector<std::uint32_t>{0, 1, 2, 1});
     CHECK(objects.objects[1].name == "ship_1");
@@ -43,7 +44,7 @@ TEST_CASE("objects: copies of a node are of one class") {
           std::vector<std::string>{"Mine", "v1.2", "Rock.01", ".001", "threat.004"});
     CHECK(objects.class_of(2) == 0);
     // A name that a rule gives is kept.
-    const std::vector<ClassRule> rules{{"Mine.*", "Mine.001", "", {}}};
+    const std::vector<ClassConfig> rules{{"Mine.*", "", "Mine.001", "", {}}};
     CHECK(group_objects(scene, rules).classes[1] == "Mine.001");
 }
 
@@ -51,14 +52,14 @@ TEST_CASE("objects: rules that cannot be meant") {
     Scene scene;
     scene.instances = {"floor", "ship_hull", "ship_mast"};
     const Location place{"m.yaml", 7, 3};
-    const std::pair<std::vector<ClassRule>, std::string> faulty[] = {
-        {{{"boat*", "boat", "", place}}, "no node of the scene fits 'boat*'"},
-        {{{"*.Glas", "pane", "", place, "Glas"}}, "no material of the scene fits 'Glas'"},
-        {{{"*", "thing", "", {}}, {"floor", "bottom", "", place}},
+    const std::pair<std::vector<ClassConfig>, std::string> faulty[] = {
+        {{{"boat*", "", "boat", "", place}}, "no node of the scene fits 'boat*'"},
+        {{{"", "Glas", "pane", "", place}}, "no material of the scene fits 'Glas'"},
+        {{{"*", "", "thing", "", {}}, {"floor", "", "bottom", "", place}},
          "no node of the scene is left for 'floor'"},
-        {{{"ship_hull", "ship", "ship_1", {}}, {"ship_mast", "mast", "ship_1", place}},
+        {{{"ship_hull", "", "ship", "ship_1", {}}, {"ship_mast", "", "mast", "ship_1", place}},
          "the instance 'ship_1' has the class 'mast' here and 'ship'"},
-        {{{"ship_*", "ship", "floor", place}}, "the instance 'floor' has the name of a node"}};
+        {{{"ship_*", "", "ship", "floor", place}}, "the instance 'floor' has the name of a node"}};
     for (const auto& rules : faulty)
         CHECK_THROWS_WITH_AS(group_objects(scene, rules.first),
                              doctest::Contains(("m.yaml:7:3: " + rules.second).c_str()),

@@ -28,28 +28,21 @@ bool is_control(char byte) {
 /// yaml-cpp takes the byte 4 for the end of the file and guesses at other encodings, so neither
 /// may reach it.
 void check_characters(std::string_view text, YamlPlace place, Lines lines) {
-    int line = 1;
-    std::size_t line_start = 0;
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = utf8_length(text.substr(i));
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < text.size(); i += length) {
+        length = utf8_length(text.substr(i));
         const char c = text[i];
         const bool blank = c == '\t' || c == '\n' || c == '\r';
-        if (length == 0 || (is_control(c) && !blank)) {
-            if (lines == Lines::counted) {
-                place.line = line;
-                place.column = static_cast<int>(i - line_start) + 1;
-            }
-            const std::string format(known_format(text));
-            if (!format.empty()) throw InputError(place.location(), "is " + format + ", not YAML");
-            throw InputError(place.location(), length == 0
-                                                   ? "is not UTF-8 text; save the file as UTF-8"
-                                                   : "control character in the text");
+        if (length > 0 && (blank || !is_control(c))) continue;
+        if (lines == Lines::counted) {
+            const std::string_view before = text.substr(0, i);
+            place.line = static_cast<int>(std::ranges::count(before, '\n')) + 1;
+            place.column = static_cast<int>(i - (before.rfind('\n') + 1)) + 1;
         }
-        i += length;
-        if (c == '\n') {
-            ++line;
-            line_start = i;
-        }
+        const std::string format(known_format(text));
+        if (!format.empty()) throw InputError(place.location(), "is " + format + ", not YAML");
+        throw InputError(place.location(), length == 0 ? "is not UTF-8 text; save the file as UTF-8"
+                                                       : "control character in the text");
     }
 }
 
@@ -220,6 +213,28 @@ const YamlNode* YamlNode::find(std::string_view wanted) const {
 
 YamlNode* YamlNode::find(std::string_view wanted) {
     return const_cast<YamlNode*>(std::as_const(*this).find(wanted));
+}
+
+void add_missing(const YamlNode& defaults, YamlNode& section) {
+    for (const YamlNode& item : defaults.items) {
+        YamlNode* const own = section.find(item.key);
+        if (own == nullptr) {
+            section.items.push_back(item);
+        } else if (own->kind == YamlNode::Kind::map && item.kind == YamlNode::Kind::map) {
+            add_missing(item, *own);
+        }
+    }
+}
+
+void erase_key(YamlNode& map, std::string_view key) {
+    std::erase_if(map.items, [&](const YamlNode& item) { return item.key == key; });
+}
+
+void set_place(YamlNode& node, const YamlPlace& place) {
+    node.place = place;
+    node.key_place = place;
+    for (YamlNode& item : node.items)
+        set_place(item, place);
 }
 
 YamlNode read_document(std::string_view text, const std::string& source, Lines lines) {

@@ -41,6 +41,15 @@ inline YamlNode* child(YamlNode* node, const char* key) {
     return node != nullptr ? node->find(key) : nullptr;
 }
 
+/// Adds the keys of `defaults` that `section` lacks, also to the sections below it.
+void add_missing(const YamlNode& defaults, YamlNode& section);
+
+/// Removes a key of a map, if it is there.
+void erase_key(YamlNode& map, std::string_view key);
+
+/// Sets the place of a value and of all its parts.
+void set_place(YamlNode& node, const YamlPlace& place);
+
 /// Nodes of a file remember their lines, nodes of a command line do not.
 enum class Lines { counted, none };
 

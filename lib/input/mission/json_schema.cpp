@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/text.h"
 #include "input/mission/reference.h"
 
 namespace sonarsim {
@@ -95,10 +96,7 @@ class SchemaMaker {
             if (key.required) json["required"].push_back(key.name);
         }
         json["additionalProperties"] = false;
-        std::string checks;
-        for (const std::string& check : section.checks)
-            checks += (checks.empty() ? "" : "; ") + check;
-        if (!checks.empty()) json["$comment"] = checks;
+        if (!section.checks.empty()) json["$comment"] = listed(section.checks, "; ");
         return json;
     }
 

@@ -50,11 +50,11 @@ struct Choice {
 template <class T>
 using Choices = std::span<const Choice<T>>;
 
-/// The names of an array of choices.
-template <class SomeChoices>
-std::vector<std::string> names_of(const SomeChoices& choices) {
+/// The names of choices, or of other things with a name.
+template <class Named>
+std::vector<std::string> names_of(const Named& all) {
     std::vector<std::string> names;
-    for (const auto& one : choices)
+    for (const auto& one : all)
         names.emplace_back(one.name);
     return names;
 }

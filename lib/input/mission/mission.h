@@ -38,12 +38,10 @@ struct ClassConfig {
     std::string name;       ///< the class
     std::string instance;   ///< one instance of all these nodes; "": each is its own
     Location place = {};
-};
 
-/// The names of the nodes, and of the parts of nodes, that a rule is for.
-inline std::string pattern_of(const ClassConfig& rule) {
-    return rule.materials.empty() ? rule.nodes : "*." + rule.materials;
-}
+    /// The names of the nodes, and of the parts of nodes, that the rule is for.
+    std::string pattern() const { return materials.empty() ? nodes : "*." + materials; }
+};
 
 /// The bins that the mask of an object has.
 enum class MaskKind { outline, echo };

@@ -127,14 +127,6 @@ void assign(YamlNode& root, const std::vector<std::string>& path, YamlNode value
     *node = std::move(value);
 }
 
-/// Sets the place of a value and of all its parts.
-void set_place(YamlNode& node, const YamlPlace& place) {
-    node.place = place;
-    node.key_place = place;
-    for (YamlNode& item : node.items)
-        set_place(item, place);
-}
-
 }  // namespace
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
@@ -226,10 +218,6 @@ std::optional<double> number_at(const YamlNode& root, std::string_view path) {
         if (node == nullptr) return std::nullopt;
     }
     return node->kind == YamlNode::Kind::scalar ? parse_number(node->text) : std::nullopt;
-}
-
-void erase_key(YamlNode& map, std::string_view key) {
-    std::erase_if(map.items, [&](const YamlNode& item) { return item.key == key; });
 }
 
 }  // namespace sonarsim

@@ -57,7 +57,4 @@ void set_text(YamlNode& root, std::string_view path, const std::string& value,
 /// The number at the path "a.b.c"; none where the document has no number there.
 std::optional<double> number_at(const YamlNode& root, std::string_view path);
 
-/// Removes a key of a map, if it is there.
-void erase_key(YamlNode& map, std::string_view key);
-
 }  // namespace sonarsim

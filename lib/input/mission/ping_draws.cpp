@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <ranges>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -137,13 +138,11 @@ void check_rule(const Mission& mission, const VaryConfig& rule) {
     const auto refuse = [&](const std::string& what) { throw InputError(rule.place, what); };
     const std::optional<Limits> limits = limits_of(mission, rule.key);
     if (!limits) {
-        std::string keys;
         VehicleConfig vehicle;
         SonarConfig sensor;
-        for (const NumberList& numbers : {numbers_of(sensor, ""), numbers_of(vehicle)}) {
-            for (const VaryingNumber& number : numbers.list)
-                keys += (keys.empty() ? "" : ", ") + number.key;
-        }
+        NumberList numbers = numbers_of(sensor, "");
+        numbers.add(vehicle_section, vehicle);
+        const std::string keys = listed(numbers.list | std::views::transform(&VaryingNumber::key));
         refuse("'" + printable(rule.key) +
                "' cannot be drawn for every ping; write per: variant, or one of the keys that can, "
                "the first of them below sensors.NAME: " +

@@ -16,18 +16,6 @@ constexpr std::size_t largest_preset = std::size_t{1} << 20;
 
 constexpr const char* preset_key = "preset";
 
-/// Adds the keys of `preset` that `section` lacks.
-void fill_in(YamlNode& section, const YamlNode& preset) {
-    for (const YamlNode& item : preset.items) {
-        YamlNode* const own = section.find(item.key);
-        if (own == nullptr) {
-            section.items.push_back(item);
-        } else if (own->kind == YamlNode::Kind::map && item.kind == YamlNode::Kind::map) {
-            fill_in(*own, item);
-        }
-    }
-}
-
 /// The folders with files that come with the program: share/ of an installation, or the checkout
 /// that holds the build folder. The module of Python lies beside share/ in a wheel, three folders
 /// below a checkout, or four below the prefix of an installation.
@@ -37,10 +25,8 @@ std::vector<std::filesystem::path> shipped_folders() {
         out.insert(out.end(), {above / "share/sonarsim/configs", above / "configs"});
     };
     std::filesystem::path above = module_of_python().parent_path();
-    for (int level = 0; !above.empty() && level < 5; ++level) {
+    for (int level = 0; !above.empty() && level < 5; ++level, above = above.parent_path())
         add(above);
-        above = above.parent_path();
-    }
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
     if (!unknown) add(program.parent_path().parent_path());
@@ -88,9 +74,9 @@ void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder
                          in_quotes(name->text) + " is the preset of a sonar of the kind " +
                              in_quotes(its_kind->text) + "; leave 'kind' out, or take another");
     }
-    std::erase_if(section.items, [](const YamlNode& item) { return item.key == preset_key; });
+    erase_key(section, preset_key);
     section.implied = false;
-    fill_in(section, preset);
+    add_missing(preset, section);
 }
 
 /// The items of `vary`, with the rules of presets in place of the items that name one. Rules of the

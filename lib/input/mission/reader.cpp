@@ -54,8 +54,7 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
     if (found_node == nullptr && presence == Presence::required) {
         // The key may be misspelt.
         for (const YamlNode& item : node_.items) {
-            const std::vector<std::string> candidate{key};
-            const std::string hint = did_you_mean(item.key, candidate);
+            const std::string hint = did_you_mean(item.key, std::vector<std::string>{key});
             if (hint.empty()) continue;
             throw InputError(item.key_place.location(),
                              "unknown key " + in_quotes(item.key) + hint);
@@ -67,10 +66,7 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
 
 const SonarKeys& MissionReader::one_of(const char* key, SonarConfig& value,
                                        const char* /*meaning*/) {
-    std::vector<std::string> names;
-    for (const SonarKeys& one : sonars_)
-        names.emplace_back(one.name);
-    const SonarKeys& keys = sonars_[index_of(*find(key, required), key, names)];
+    const SonarKeys& keys = sonars_[index_of(*find(key, required), key, names_of(sonars_))];
     std::string name = std::move(value.name);
     value = keys.defaults;
     value.name = std::move(name);

@@ -10,10 +10,8 @@
 #include "core/error.h"
 #include "input/mission/limits.h"
 
-// The keys of scene.seabed, with their defaults and their descriptions as in mission.h.
-
-// The keys of the maps that apply to the ground, with their defaults and their descriptions as
-// in mission.h.
+// The keys of scene.seabed, and of the maps that apply to the ground, with their defaults and their
+// descriptions as in mission.h.
 
 namespace sonarsim {
 

@@ -30,24 +30,13 @@ constexpr const char* clutter_kinds[]{
 /// The number of drawn examples of a kind.
 constexpr int stock_examples = 6;
 
-YamlNode scalar(const std::string& key, const std::string& text, const YamlPlace& place) {
-    YamlNode node;
-    node.kind = YamlNode::Kind::scalar;
-    node.place = place;
-    node.text = text;
-    node.key = key;
-    node.key_place = place;
-    return node;
-}
-
-YamlNode list(const std::string& key, std::vector<YamlNode> items, const YamlPlace& place) {
-    YamlNode node;
-    node.kind = YamlNode::Kind::list;
-    node.place = place;
-    node.items = std::move(items);
-    node.key = key;
-    node.key_place = place;
-    return node;
+/// Adds an empty list to a section.
+YamlNode& add_list(YamlNode& section, const char* key, const YamlPlace& place) {
+    YamlNode& list = section.items.emplace_back();
+    list.kind = YamlNode::Kind::list;
+    list.key = key;
+    set_place(list, place);
+    return list;
 }
 
 /// The files of a kind of the stock, absolute.
@@ -67,8 +56,9 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder,
                              " has not been made; scripts/make_scenes.py stock makes it, as "
                              "scripts/render.sh does with a mission");
         }
-        files.push_back(scalar("", path.lexically_normal().string(), kind.place));
-        files.back().quoted = true;
+        YamlNode& file = files.emplace_back(kind);
+        file.text = path.lexically_normal().string();
+        file.quoted = true;
     }
 }
 
@@ -76,31 +66,17 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder,
 YamlNode rule_of_clutter(YamlNode clutter) {
     if (clutter.kind != YamlNode::Kind::map)
         refuse_type(clutter, "clutter", "a section with the key density_per_m2");
-    const YamlPlace place = clutter.place;
     if (clutter.find("density_per_m2") == nullptr)
         refuse(clutter, "'clutter' needs the key 'density_per_m2'");
-    const auto add = [&](YamlNode node) {
-        if (clutter.find(node.key) == nullptr) clutter.items.push_back(std::move(node));
-    };
-    const auto pair = [&](const char* key, const std::array<double, 2>& values) {
-        add(list(
-            key,
-            {scalar("", number_text(values[0]), place), scalar("", number_text(values[1]), place)},
-            place));
-    };
-    add(scalar("name", "clutter", place));
-    add(scalar("overlap", "true", place));
-    add(scalar("unlabelled", "true", place));
-    const ClutterConfig defaults;
-    pair("roll_deg", {-15.0, 15.0});
-    pair("pitch_deg", {-15.0, 15.0});
-    pair("scale", defaults.scale);
-    pair("bury", defaults.bury);
-    std::vector<YamlNode> kinds;
-    for (const char* kind : clutter_kinds)
-        kinds.push_back(scalar("", kind, place));
-    add(list("stock", std::move(kinds), place));
-    add(scalar("class", "clutter", place));
+    const ClutterConfig scales;
+    YamlNode defaults = read_document(
+        "{name: clutter, overlap: true, unlabelled: true, class: clutter, roll_deg: [-15, 15], "
+        "pitch_deg: [-15, 15], scale: " +
+            yaml_text(scales.scale) + ", bury: " + yaml_text(scales.bury) + ", stock: [" +
+            listed(clutter_kinds) + "]}",
+        "");
+    set_place(defaults, clutter.place);
+    add_missing(defaults, clutter);
     clutter.key.clear();
     return clutter;
 }
@@ -121,9 +97,8 @@ void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder) 
     YamlNode* const scene = child(&mission, "scene");
     if (const YamlNode* const clutter = child(scene, "clutter")) {
         YamlNode rule = rule_of_clutter(*clutter);
-        std::erase_if(scene->items, [](const YamlNode& item) { return item.key == "clutter"; });
-        if (scene->find("scatter") == nullptr)
-            scene->items.push_back(list("scatter", {}, rule.place));
+        erase_key(*scene, "clutter");
+        if (scene->find("scatter") == nullptr) add_list(*scene, "scatter", rule.place);
         if (YamlNode* const rules = scene->find("scatter"); rules->kind == YamlNode::Kind::list)
             rules->items.push_back(std::move(rule));
     }
@@ -138,7 +113,7 @@ void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder) 
         for (const YamlNode& kind : stock->items)
             add_files(kind, base_folder, files);
         const YamlPlace place = stock->place;
-        rule.items.push_back(list("files", std::move(files), place));
+        add_list(rule, "files", place).items = std::move(files);
     }
 }
 

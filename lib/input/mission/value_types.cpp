@@ -156,13 +156,6 @@ void TextType::read(const YamlNode& node, const char* key, YamlValues& values) c
         values.items.push_back(flow_text(item));
 }
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string out;
-    for (const std::string& name : names)
-        out += (out.empty() ? "" : ", ") + name;
-    return out;
-}
-
 std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys) {
     std::string out;
     for (const auto& [key, value] : values) {

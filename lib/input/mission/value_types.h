@@ -35,9 +35,6 @@ namespace sonarsim {
 /// "at least 0" for a number that is not within the limits, else "".
 std::string fault_of(double value, const Limits& limits);
 
-/// "a, b, c".
-std::string listed(const std::vector<std::string>& names);
-
 /// Values as text, by key.
 using KeyTexts = std::vector<std::pair<std::string, std::string>>;
 

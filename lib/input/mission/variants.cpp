@@ -1,5 +1,7 @@
 #include "input/mission/variants.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "core/random.h"
@@ -61,9 +63,7 @@ std::vector<std::string> choices_of_objects(const VaryConfig& rule) {
 }  // namespace
 
 std::string variant_folder(int index) {
-    const std::string number = std::to_string(index);
-    constexpr std::size_t digits = 4;
-    return "variant_" + std::string(digits - std::min(digits, number.size()), '0') + number;
+    return fmt::format("variant_{:04}", index);
 }
 
 Variants::Variants(const Mission& mission, const MissionSource& source, SonarKeyTable sonars)
@@ -146,9 +146,7 @@ YamlNode Variants::own_values(const std::vector<std::string>& values) const {
 Mission Variants::make(int index, const std::vector<std::string>& values) const {
     YamlNode root = whole_;
     set_text(root, "seed", std::to_string(seed(index)), {source_.file.string()});
-    Variant variant = objects_;
-    variant.index = index;
-    variant.drawn = drawn_of(values);
+    Variant variant{index, drawn_of(values), objects_};
     auto drawn = variant.drawn.begin();
     for (const bool scales : {false, true}) {
         for (const VaryConfig& rule : mission_.vary) {

@@ -34,7 +34,7 @@ class Variants {
     /// and with each largest whole number, of the rules that vary the scene or the classes.
     std::vector<Mission> extremes() const;
     /// Notes the classes and instances of all choices for every variant that is made.
-    void note(Variant objects) { objects_ = std::move(objects); }
+    void note(PossibleObjects objects) { objects_ = std::move(objects); }
 
   private:
     std::vector<std::string> draw_values(int index) const;
@@ -49,7 +49,7 @@ class Variants {
     YamlNode whole_;
     /// The values that rules with `scale` multiply; empty if another rule may change them.
     std::optional<YamlNode> own_;
-    Variant objects_;
+    PossibleObjects objects_;
 };
 
 /// The name of a variant's folder, "variant_0017".

@@ -41,13 +41,19 @@ struct VaryConfig {
 /// Keys of a mission and the values drawn for them, as YAML text.
 using DrawnValues = std::vector<std::pair<std::string, std::string>>;
 
+/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so
+/// that they are the same in all variants.
+struct PossibleObjects {
+    std::vector<std::string> classes;  ///< they are numbered first
+    /// Each with the class that its file gives it; "": none. The rules then give them classes.
+    std::vector<std::pair<std::string, std::string>> instances;
+};
+
 /// The variant of a mission.
 struct Variant {
     int index = -1;  ///< -1: none
     DrawnValues drawn;
-    std::vector<std::string> classes;  ///< classes of all choices of `vary`
-    /// Likewise the instances, each with the class that its file gives it.
-    std::vector<std::pair<std::string, std::string>> instances;
+    PossibleObjects objects;  ///< all choices of `vary` together
 };
 
 inline constexpr Choice<VaryPer> vary_pers[]{

@@ -11,9 +11,8 @@
 #include "input/mission/instrument.h"
 #include "input/mission/limits.h"
 
-// The keys of the water, with their defaults and their descriptions as in mission.h.
-
-// The keys of scene.particles, with their defaults and their descriptions as in mission.h.
+// The keys of the water and of scene.particles, with their defaults and their descriptions as in
+// mission.h.
 
 namespace sonarsim {
 

@@ -9,6 +9,7 @@
 #include "core/elementary.h"
 #include "core/input_limits.h"
 #include "core/units.h"
+#include "input/mission/limits.h"
 
 namespace sonarsim {
 
@@ -51,14 +52,11 @@ std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
                          "the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
                          "'Material, Density kg/m^3, Speed of Sound m/s'");
     }
-    std::vector<std::string> known;
-    known.reserve(optional_columns.size());
-    for (const OptionalColumn& column : optional_columns)
-        known.emplace_back(column.name);
     std::vector<OptionalColumn> columns;
     for (auto name = names.begin() + 3; name != names.end(); ++name) {
         const auto column = std::ranges::find(optional_columns, *name, &OptionalColumn::name);
         if (column == optional_columns.end()) {
+            const auto known = names_of(optional_columns);
             throw InputError(where, "unknown column '" + printable(*name) + "'" +
                                         did_you_mean(*name, known) + "; docs/scenes.md lists them");
         }
@@ -81,11 +79,6 @@ double number_within(const std::string& text, const char* quantity, double low, 
     return *value;
 }
 
-/// A density or a speed of sound.
-double medium_number(const std::string& text, const char* quantity, const Location& where) {
-    return number_within(text, quantity, min_medium, largest_medium, where);
-}
-
 /// InputError if the columns of a sea bed have some numbers of the model and lack others, or a
 /// wall.
 void check_sea_bed(const Material& material, const Location& where) {
@@ -99,20 +92,12 @@ void check_sea_bed(const Material& material, const Location& where) {
          {"volume_parameter", material.volume_parameter.has_value()}}};
     const auto given = std::ranges::count_if(needed, [](const auto& n) { return n.second; });
     if (given == std::ssize(needed) || (given == 0 && !material.spectral_exponent)) return;
-    std::string missing;
+    std::vector<std::string> missing;
     for (const auto& [name, is_given] : needed) {
-        if (!is_given) missing += (missing.empty() ? "'" : ", '") + std::string(name) + "'";
+        if (!is_given) missing.push_back("'" + std::string(name) + "'");
     }
-    throw InputError(where, "without a grain_phi a sea bed needs " + missing +
+    throw InputError(where, "without a grain_phi a sea bed needs " + listed(missing) +
                                 ", too; fill them in, or fill in grain_phi");
-}
-
-/// The cell of an optional column; empty where the file has no such column.
-std::string cell_of(const CsvTable& csv, const CsvRow& row, const std::string& column) {
-    const auto at = std::ranges::find(csv.header.fields, column);
-    return at == csv.header.fields.end()
-               ? std::string()
-               : row.fields[static_cast<std::size_t>(at - csv.header.fields.begin())];
 }
 
 MaterialTable to_materials(const CsvTable& csv) {
@@ -130,17 +115,20 @@ MaterialTable to_materials(const CsvTable& csv) {
             throw InputError(where, "material '" + material.name + "' is already in line " +
                                         std::to_string(known->second));
         }
-        material.density_kg_m3 = medium_number(row.fields[1], "density", where);
-        material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
+        material.density_kg_m3 =
+            number_within(row.fields[1], "density", min_medium, largest_medium, where);
+        material.sound_speed_m_s =
+            number_within(row.fields[2], "sound speed", min_medium, largest_medium, where);
+        bool has_inside = false;
         for (std::size_t i = 0; i < optional.size(); ++i) {
             const OptionalColumn& column = optional[i];
             const std::string& cell = row.fields[3 + i];
             if (cell.empty()) continue;
             column.put(material,
                        number_within(cell, column.name.data(), column.low, column.high, where));
+            has_inside = has_inside || column.name == "lambert_db";
         }
         check_sea_bed(material, where);
-        const bool has_inside = !cell_of(csv, row, "lambert_db").empty();
         if (material.roughness_mm && !has_inside) material.lambert_db = -300.0;
         table.materials.push_back(std::move(material));
     }
@@ -159,9 +147,6 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
 
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
                        std::span<const std::string> users) {
-    std::vector<std::string> names;
-    for (const Material& material : table.materials)
-        names.push_back(material.name);
     ErrorList errors;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& material = scene.materials[i];
@@ -172,7 +157,7 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
             errors.add(InputError(Location{table.file},
                                   "lacks the material " + name +
                                       (i < users.size() ? " of " + users[i] : "") +
-                                      did_you_mean(material.name, names) +
+                                      did_you_mean(material.name, names_of(table.materials)) +
                                       "; add it to the CSV or give scene.material_default"));
             continue;
         }
@@ -184,9 +169,7 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
 }
 
 void require_material(const MaterialTable& table, const std::string& name, const Location& place) {
-    std::vector<std::string> known;
-    for (const Material& material : table.materials)
-        known.push_back(material.name);
+    const std::vector<std::string> known = names_of(table.materials);
     if (std::ranges::find(known, name) != known.end()) return;
     throw InputError(place, "unknown material '" + printable(name) + "'" +
                                 did_you_mean(name, known) + "; " + table.file +

@@ -1,5 +1,6 @@
 #include "input/scene/objects.h"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -24,16 +25,19 @@ struct NumberedNames {
     }
 };
 
+using NamedInstances = std::vector<std::pair<std::string, std::string>>;
+
 /// The rule that applies to each instance; null if none does. InputError for a rule that applies to
 /// no instance.
-std::vector<const ClassRule*> rule_of_instances(std::span<const NamedInstance> instances,
-                                                std::span<const ClassRule> rules) {
-    std::vector<const ClassRule*> chosen(instances.size(), nullptr);
-    for (const ClassRule& rule : rules) {
+std::vector<const ClassConfig*> rule_of_instances(const NamedInstances& instances,
+                                                  std::span<const ClassConfig> rules) {
+    std::vector<const ClassConfig*> chosen(instances.size(), nullptr);
+    for (const ClassConfig& rule : rules) {
+        const std::string pattern = rule.pattern();
         bool fits = false;
         bool taken = false;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            if (!fits_pattern(rule.nodes, instances[i].name)) continue;
+            if (!fits_pattern(pattern, instances[i].first)) continue;
             taken = taken || chosen[i] != nullptr;
             fits = fits || chosen[i] == nullptr;
             if (!chosen[i]) chosen[i] = &rule;
@@ -52,11 +56,11 @@ std::vector<const ClassRule*> rule_of_instances(std::span<const NamedInstance> i
 }
 
 /// The possible instances, followed by those of the scene.
-std::vector<NamedInstance> all_instances(const Scene& scene, const PossibleObjects& possible) {
-    std::vector<NamedInstance> all = possible.instances;
+NamedInstances all_instances(const Scene& scene, const PossibleObjects& possible) {
+    NamedInstances all = possible.instances;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const bool known = i < scene.instance_classes.size();
-        all.push_back({scene.instances[i], known ? scene.instance_classes[i] : std::string()});
+        all.emplace_back(scene.instances[i], known ? scene.instance_classes[i] : std::string());
     }
     return all;
 }
@@ -91,19 +95,24 @@ bool fits_pattern(std::string_view pattern, std::string_view text) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
+bool fits_any(std::span<const std::string> patterns, std::string_view text) {
+    return std::ranges::any_of(
+        patterns, [&](const std::string& pattern) { return fits_pattern(pattern, text); });
+}
+
+SceneObjects group_objects(const Scene& scene, std::span<const ClassConfig> rules,
                            const PossibleObjects& possible) {
-    const std::vector<NamedInstance> instances = all_instances(scene, possible);
-    const std::vector<const ClassRule*> rule_of = rule_of_instances(instances, rules);
+    const NamedInstances instances = all_instances(scene, possible);
+    const std::vector<const ClassConfig*> rule_of = rule_of_instances(instances, rules);
     SceneObjects out;
     NumberedNames classes;
     NumberedNames names;
     for (const std::string& name : possible.classes)
         classes.number(name);
-    std::vector<const ClassRule*> maker;  // the rule that made each object
+    std::vector<const ClassConfig*> maker;  // the rule that made each object
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const auto& [name, own] = instances[i];
-        const ClassRule* const rule = rule_of[i];
+        const ClassConfig* const rule = rule_of[i];
         const bool grouped = rule && !rule->instance.empty();
         const std::uint32_t class_index = classes.number(rule          ? rule->name
                                                          : own.empty() ? without_copy_number(name)
@@ -117,7 +126,7 @@ SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
             continue;
         }
         // Names of nodes are unique, so if two nodes share a name, a rule has grouped one of them.
-        const ClassRule& culprit = grouped ? *rule : *maker[object];
+        const ClassConfig& culprit = grouped ? *rule : *maker[object];
         if (!grouped || !maker[object]) {
             throw InputError(culprit.place, "the instance '" + culprit.instance +
                                                 "' has the name of a node that is not in it; "

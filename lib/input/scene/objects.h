@@ -5,20 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "input/mission/mission.h"
 #include "input/scene/scene.h"
 
 namespace sonarsim {
-
-/// Gives a class to the nodes whose names match a pattern. If `instance` is not empty, they become
-/// one object.
-struct ClassRule {
-    std::string nodes;  ///< `*` stands for any text, `?` for any one byte
-    std::string name;   ///< name of the class
-    std::string instance;
-    Location place;              ///< for messages
-    std::string materials = {};  ///< the materials that the mission names in place of nodes
-};
 
 /// The objects and classes that labels distinguish. Ids count from 1; a label of 0 means none.
 struct SceneObjects {
@@ -43,28 +33,18 @@ struct SceneObjects {
     }
 };
 
-/// An object that a scene may have, by its name and by the class that the scene's file gives it.
-struct NamedInstance {
-    std::string name;
-    std::string class_name;  ///< "": none
-};
-
-/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so
-/// that they are the same in all variants.
-struct PossibleObjects {
-    std::vector<std::string> classes;      ///< they are numbered first
-    std::vector<NamedInstance> instances;  ///< their classes follow, by the rules
-};
-
 /// True if the whole of `text` matches a pattern with `*` and `?`.
 bool fits_pattern(std::string_view pattern, std::string_view text);
+
+/// True if `text` matches one of the patterns.
+bool fits_any(std::span<const std::string> patterns, std::string_view text);
 
 /// Groups the instances of a scene into objects. The first rule that matches a node applies to it.
 /// A node without rule is an object of its own; its class is that of its file, else its name
 /// without the number of a copy. InputError for a rule that fits no node and no possible instance,
 /// for two rules that put nodes of different classes into one object, for an object with the name
 /// of a node outside of it, and for more objects or classes than 16 bits can number.
-SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
+SceneObjects group_objects(const Scene& scene, std::span<const ClassConfig> rules,
                            const PossibleObjects& possible = {});
 
 }  // namespace sonarsim

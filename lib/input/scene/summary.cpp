@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "input/mission/limits.h"
 #include "input/scene/mesh_topology.h"
 
 namespace sonarsim {
@@ -34,20 +35,24 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
-std::string table(const std::string& title, const std::vector<std::string>& names,
-                  const std::vector<Share>& shares) {
-    std::vector<std::string> shown;
-    shown.reserve(names.size());
-    for (const std::string& name : names)
-        shown.push_back(printable(name));
+/// A table with a row for each name; `cells(k)` is the rest of its line.
+template <class Cells>
+std::string rows_of(const std::string& title, const std::vector<std::string>& names,
+                    const std::string& heads, const Cells& cells) {
     std::size_t width = title.size();
-    for (const std::string& name : shown)
-        width = std::max(width, name.size());
-    std::string out = padded("\n" + title, width + 1) + "   triangles     area m^2\n";
-    for (std::size_t i = 0; i < shown.size(); ++i)
-        out += padded(shown[i], width) +
-               fmt::format("{:>12}{:>13.3f}\n", shares[i].triangles, shares[i].area_m2);
+    for (const std::string& name : names)
+        width = std::max(width, printable(name).size());
+    std::string out = padded("\n" + title, width + 1) + heads + "\n";
+    for (std::size_t k = 0; k < names.size(); ++k)
+        out += padded(printable(names[k]), width) + cells(k) + "\n";
     return out;
+}
+
+std::string table_of_shares(const std::string& title, const std::vector<std::string>& names,
+                            const std::vector<Share>& shares) {
+    return rows_of(title, names, "   triangles     area m^2", [&](std::size_t k) {
+        return fmt::format("{:>12}{:>13.3f}", shares[k].triangles, shares[k].area_m2);
+    });
 }
 
 }  // namespace
@@ -62,10 +67,6 @@ std::string describe_scene(const Scene& scene) {
         material_shares[scene.triangle_material[i]].add(area);
         instance_shares[scene.triangle_instance[i]].add(area);
     }
-    std::vector<std::string> materials;
-    for (const Material& material : scene.materials)
-        materials.push_back(material.name);
-
     std::string out = fmt::format(
         "bounds     {} to {} m\nsize       {} m\norigin     {} m\n"
         "triangles  {} with {} vertices, {:.3f} m^2\n",
@@ -84,28 +85,19 @@ std::string describe_scene(const Scene& scene) {
             "rounding   {:.3f} m, since vertices lie far from the origin of their file or node\n",
             scene.vertex_rounding_m);
     }
-    return out + table("material", materials, material_shares) +
-           table("instance", scene.instances, instance_shares);
+    return out + table_of_shares("material", names_of(scene.materials), material_shares) +
+           table_of_shares("instance", scene.instances, instance_shares);
 }
 
 std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water) {
-    const std::string title = "material";
-    std::size_t width = title.size();
-    for (const Material& material : scene.materials)
-        width = std::max(width, printable(material.name).size());
-    std::string out = padded("\n" + title, width + 1) + "  kg/m^3    m/s     reflection\n";
-    for (const Material& material : scene.materials) {
-        out += padded(printable(material.name), width);
-        const Material* const row = find_material(table.materials, material.name);
-        if (!row) {
-            out += "  not in " + printable(table.file) + "\n";
-            continue;
-        }
-        out += fmt::format("{:>8}{:>8}{:>13.3f}\n", number_text(row->density_kg_m3),
+    const std::vector<std::string> names = names_of(scene.materials);
+    return rows_of("material", names, "  kg/m^3    m/s     reflection", [&](std::size_t k) {
+        const Material* const row = find_material(table.materials, names[k]);
+        if (!row) return "  not in " + printable(table.file);
+        return fmt::format("{:>8}{:>8}{:>13.3f}", number_text(row->density_kg_m3),
                            number_text(row->sound_speed_m_s),
                            power_reflection(row->density_kg_m3, row->sound_speed_m_s, water));
-    }
-    return out;
+    });
 }
 
 }  // namespace sonarsim

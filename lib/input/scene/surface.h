@@ -26,6 +26,13 @@ inline Surface moved(const Surface& surface, const Eigen::Affine3d& T_world_surf
     return out;
 }
 
+inline Eigen::AlignedBox2d box_from_above(const std::array<Eigen::Vector3d, 3>& corners) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& corner : corners)
+        box.extend(corner.head<2>());
+    return box;
+}
+
 inline Eigen::AlignedBox3d box_of(const Surface& surface) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : surface.vertices)

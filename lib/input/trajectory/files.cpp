@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +15,8 @@
 #include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "input/mission/document.h"
+#include "input/mission/limits.h"
 
 namespace sonarsim {
 
@@ -27,36 +30,33 @@ struct Column {
     double limit;
 };
 
-// Both attitude formats start with the same four columns; TUM files have the first set.
-constexpr Column with_quaternion[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
-                                      {"z_m", furthest_m}, {"qx", 1e9},         {"qy", 1e9},
-                                      {"qz", 1e9},         {"qw", 1e9}};
-constexpr Column with_angles[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
-                                  {"z_m", furthest_m}, {"roll_deg", 1e6},   {"pitch_deg", 1e6},
-                                  {"yaw_deg", 1e6}};
-constexpr std::size_t attitude_begin = 4;
+/// All columns: those of every file, then those of the two attitude formats. TUM files have the
+/// first eight.
+constexpr Column all_columns[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
+                                  {"z_m", furthest_m}, {"qx", 1e9},         {"qy", 1e9},
+                                  {"qz", 1e9},         {"qw", 1e9},         {"roll_deg", 1e6},
+                                  {"pitch_deg", 1e6},  {"yaw_deg", 1e6}};
+constexpr std::span<const Column> of_time_and_place(all_columns, 4);
+constexpr std::span<const Column> of_quaternion(all_columns + 4, 4);
+constexpr std::span<const Column> of_angles(all_columns + 8, 3);
+constexpr std::size_t tum_fields = 8;
 constexpr const char* header_help =
     "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
 
-/// A field as shown in a message: quoted, shortened if long, without control characters.
-std::string shown(std::string_view field) {
-    constexpr std::size_t longest = 40;
-    std::string out(field.substr(0, longest));
-    for (char& c : out) {
-        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-    }
-    return "'" + out + (field.size() > longest ? "...'" : "'");
+/// A field as shown in a message.
+std::string in_short_quotes(std::string_view field) {
+    return "'" + shown(field, 40) + "'";
 }
 
 double field_value(std::string_view field, const Column& column, const Location& where) {
     const std::string name(column.name);
     const std::optional<double> value = parse_number(field);
-    if (!value) throw InputError(where, name + ": " + shown(field) + " is not a number");
+    if (!value) throw InputError(where, name + ": " + in_short_quotes(field) + " is not a number");
     if (!std::isfinite(*value)) {
-        throw InputError(where, name + ": " + shown(field) + " is not a finite number");
+        throw InputError(where, name + ": " + in_short_quotes(field) + " is not a finite number");
     }
     if (std::fabs(*value) > column.limit) {
-        throw InputError(where, name + ": " + shown(field) + " is beyond " +
+        throw InputError(where, name + ": " + in_short_quotes(field) + " is beyond " +
                                     number_text(column.limit) +
                                     "; the column's name gives the unit");
     }
@@ -75,11 +75,11 @@ Eigen::Quaterniond unit_quaternion(std::span<const double, 4> xyzw, const Locati
     return std::fabs(norm - 1.0) < 1e-14 ? q : q.normalized();
 }
 
-/// Takes `values` in the order of with_quaternion or with_angles.
+/// Takes `values` in the order of the columns.
 TimedPose pose_from(std::span<const double> values, const Location& where) {
-    const auto attitude = values.subspan(attitude_begin);
+    const auto attitude = values.subspan(of_time_and_place.size());
     const Eigen::Quaterniond rotation =
-        attitude.size() == 4
+        attitude.size() == of_quaternion.size()
             ? unit_quaternion(attitude.first<4>(), where)
             : rotation_from_rpy(radians(attitude[0]), radians(attitude[1]), radians(attitude[2]));
     return {values[0], {rotation, {values[1], values[2], values[3]}}};
@@ -100,57 +100,39 @@ Trajectory require_poses(Trajectory trajectory, const std::string& file) {
     return trajectory;
 }
 
-/// True if a header, or a set of columns, has a column of that name.
 bool has(std::span<const std::string> header, std::string_view name) {
-    return std::find(header.begin(), header.end(), name) != header.end();
-}
-bool has(std::span<const Column> columns, std::string_view name) {
-    return std::any_of(columns.begin(), columns.end(),
-                       [&](const Column& column) { return column.name == name; });
+    return std::ranges::find(header, name) != header.end();
 }
 
 void check_names(std::span<const std::string> header, const Location& where) {
+    const std::vector<std::string> known = names_of(all_columns);
     for (std::size_t i = 0; i < header.size(); ++i) {
-        if (has(header.first(i), header[i])) {
-            throw InputError(where, "column " + shown(header[i]) + " occurs twice");
-        }
-        if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
-        std::vector<std::string> known;
-        known.reserve(std::size(with_quaternion) + std::size(with_angles));
-        for (const Column& column : with_quaternion)
-            known.emplace_back(column.name);
-        for (const Column& column : std::span(with_angles).subspan(attitude_begin)) {
-            known.emplace_back(column.name);
-        }
-        throw InputError(where, "unknown column " + shown(header[i]) +
-                                    did_you_mean(header[i], known) + "; expected " + header_help);
+        const std::string name = in_short_quotes(header[i]);
+        if (has(header.first(i), header[i]))
+            throw InputError(where, "column " + name + " occurs twice");
+        if (has(known, header[i])) continue;
+        throw InputError(where, "unknown column " + name + did_you_mean(header[i], known) +
+                                    "; expected " + header_help);
     }
 }
 
-/// The set of columns that a header has. InputError that lists the missing ones.
-std::span<const Column> columns_of(std::span<const std::string> header, const Location& where) {
+/// The columns that a header has. InputError that lists the missing ones.
+std::vector<Column> columns_of(std::span<const std::string> header, const Location& where) {
     check_names(header, where);
-    const auto any_of = [&](std::span<const Column> attitude) {
-        return std::any_of(attitude.begin(), attitude.end(),
-                           [&](const Column& column) { return has(header, column.name); });
-    };
-    const bool quaternion = any_of(std::span(with_quaternion).subspan(attitude_begin));
-    const bool angles = any_of(std::span(with_angles).subspan(attitude_begin));
-    if (quaternion == angles) {
+    const auto is_given = [&](const Column& column) { return has(header, column.name); };
+    const bool quaternion = std::ranges::any_of(of_quaternion, is_given);
+    if (quaternion == std::ranges::any_of(of_angles, is_given)) {
         throw InputError(where, std::string(quaternion ? "two attitudes" : "no attitude") +
                                     "; expected " + header_help);
     }
-    const std::span<const Column> columns = quaternion ? std::span<const Column>(with_quaternion)
-                                                       : std::span<const Column>(with_angles);
-    std::string missing;
-    for (const Column& column : columns) {
-        if (!has(header, column.name))
-            missing += (missing.empty() ? "" : ", ") + std::string(column.name);
-    }
-    if (!missing.empty()) {
-        throw InputError(where, "missing column " + missing + "; expected " + header_help);
-    }
-    return columns;
+    const std::span<const Column> attitude = quaternion ? of_quaternion : of_angles;
+    std::vector<Column> columns(of_time_and_place.begin(), of_time_and_place.end());
+    columns.insert(columns.end(), attitude.begin(), attitude.end());
+    std::vector<Column> missing;
+    std::ranges::remove_copy_if(columns, std::back_inserter(missing), is_given);
+    if (missing.empty()) return columns;
+    throw InputError(where,
+                     "missing column " + listed(names_of(missing)) + "; expected " + header_help);
 }
 
 std::vector<std::string_view> split_blanks(std::string_view line) {
@@ -170,7 +152,7 @@ std::vector<std::string_view> split_blanks(std::string_view line) {
 Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) {
     Trajectory trajectory;
     std::vector<std::string> header;
-    std::span<const Column> columns;
+    std::vector<Column> columns;
     std::vector<double> values;
     for_each_csv_row(text, file, [&](const CsvRow& row) {
         const Location where{file, row.line};
@@ -181,7 +163,7 @@ Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) 
             return;
         }
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            const auto at = std::find(header.begin(), header.end(), columns[c].name);
+            const auto at = std::ranges::find(header, columns[c].name);
             const auto& field = row.fields[static_cast<std::size_t>(at - header.begin())];
             values[c] = field_value(field, columns[c], where);
         }
@@ -199,14 +181,14 @@ Trajectory parse_tum(std::string_view text, const std::string& file) {
         const auto fields = split_blanks(line.substr(0, line.find('#')));
         if (fields.empty()) continue;
         const Location where{file, number};
-        std::array<double, std::size(with_quaternion)> values{};
+        std::array<double, tum_fields> values{};
         if (fields.size() != values.size()) {
             throw InputError(where, std::to_string(fields.size()) +
                                         " fields; a pose has 8: t x y z qx qy qz qw");
         }
         for (std::size_t c = 0; c < values.size(); ++c) {
             const auto column = static_cast<int>(fields[c].data() - line.data()) + 1;
-            values[c] = field_value(fields[c], with_quaternion[c], {file, number, column});
+            values[c] = field_value(fields[c], all_columns[c], {file, number, column});
         }
         append(trajectory, pose_from(values, where), where);
     }

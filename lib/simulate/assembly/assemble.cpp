@@ -196,10 +196,7 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
 }
 
 SceneObjects objects_of(const Mission& mission, const Scene& scene) {
-    std::vector<ClassRule> rules;
-    for (const ClassConfig& rule : mission.classes)
-        rules.push_back({pattern_of(rule), rule.name, rule.instance, rule.place, rule.materials});
-    SceneObjects objects = group_objects(scene, rules, possible_objects(mission, scene));
+    SceneObjects objects = group_objects(scene, mission.classes, possible_objects(mission, scene));
     objects.background = background_classes(mission, scene, objects);
     objects.shadow = shadow_classes(mission, objects);
     return objects;

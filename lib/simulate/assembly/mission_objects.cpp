@@ -1,6 +1,7 @@
 #include "simulate/assembly/mission_objects.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -44,10 +45,8 @@ void add_bottom(const Mission& mission, const Scene& scene, const SceneObjects& 
                 std::vector<std::uint8_t>& background) {
     const std::vector<std::string> bottom = bottom_patterns(mission.scene);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        for (const std::string& pattern : bottom) {
-            if (fits_pattern(pattern, scene.instances[i]))
-                background[objects.class_of(objects.object_of(i))] = 1;
-        }
+        if (fits_any(bottom, scene.instances[i]))
+            background[objects.class_of(objects.object_of(i))] = 1;
     }
 }
 
@@ -66,16 +65,15 @@ std::size_t class_named(const Mission& mission, const SceneObjects& objects, con
     const auto found = std::ranges::find(objects.classes, name);
     if (found != objects.classes.end())
         return static_cast<std::size_t>(found - objects.classes.begin());
-    std::string all;
-    for (const std::string& one : objects.classes)
-        all += (all.empty() ? "" : ", ") + printable(one);
+    const std::string all = listed(objects.classes | std::views::transform(printable));
     throw InputError(mission.labels.place,
                      std::string("labels.") + key + ": there is no class '" + printable(name) +
                          "'" + did_you_mean(name, objects.classes) + "; there are: " + all);
 }
 
-std::vector<NamedInstance> drawn_instances(const SceneConfig& scene) {
-    std::vector<NamedInstance> drawn;
+/// The instances whose number is drawn, and their classes.
+std::vector<std::pair<std::string, std::string>> drawn_instances(const SceneConfig& scene) {
+    std::vector<std::pair<std::string, std::string>> drawn;
     for (const ScatterConfig& scatter : scene.scatter) {
         const auto most = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
         for (std::size_t file = 0; file < scatter.files.size(); ++file) {
@@ -140,13 +138,14 @@ void add_new(const std::vector<T>& values, std::vector<T>& all) {
 std::vector<std::string> classes_of(const PossibleObjects& possible,
                                     const std::vector<ClassConfig>& rules) {
     std::vector<std::string> classes;
-    for (const NamedInstance& instance : possible.instances) {
+    for (const auto& instance : possible.instances) {
+        const auto& [name, own] = instance;
         const auto rule = std::ranges::find_if(rules, [&](const ClassConfig& one) {
-            return fits_pattern(pattern_of(one), instance.name);
+            return fits_pattern(one.pattern(), instance.first);
         });
-        classes.push_back(rule != rules.end()           ? rule->name
-                          : instance.class_name.empty() ? without_copy_number(instance.name)
-                                                        : instance.class_name);
+        classes.push_back(rule != rules.end() ? rule->name
+                          : own.empty()       ? without_copy_number(name)
+                                              : own);
     }
     return classes;
 }
@@ -196,13 +195,11 @@ std::optional<std::string> background_by_size(const Mission& mission, const Scen
 }
 
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
-    PossibleObjects possible{mission.variant.classes, {}};
-    for (const auto& [name, class_name] : mission.variant.instances)
-        possible.instances.push_back({name, class_name});
-    const std::vector<NamedInstance> drawn = drawn_instances(mission.scene);
+    PossibleObjects possible = mission.variant.objects;
+    const auto drawn = drawn_instances(mission.scene);
     std::set<std::string> drawn_names;
-    for (const NamedInstance& one : drawn)
-        drawn_names.insert(one.name);
+    for (const auto& one : drawn)
+        drawn_names.insert(one.first);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const std::string& name = scene.instances[i];
         if (is_particle(mission.scene, name) || drawn_names.contains(name)) continue;
@@ -218,14 +215,11 @@ PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
 Variants variants_of(const Mission& mission, const MissionSource& source) {
     Variants variants(mission, source, sonar_keys());
     SceneFiles models;
-    Variant all;
+    PossibleObjects all;
     for (const Mission& extreme : variants.extremes()) {
-        const Scene named = named_instances(extreme, models);
-        const PossibleObjects possible = possible_objects(extreme, named);
-        std::vector<std::pair<std::string, std::string>> instances;
-        for (const NamedInstance& one : possible.instances)
-            instances.emplace_back(one.name, one.class_name);
-        add_new(instances, all.instances);
+        const PossibleObjects possible =
+            possible_objects(extreme, named_instances(extreme, models));
+        add_new(possible.instances, all.instances);
         add_new(classes_of(possible, extreme.classes), all.classes);
     }
     variants.note(std::move(all));

@@ -59,19 +59,13 @@ std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const L
     return chunk;
 }
 
-void append_little_endian(std::string& bytes, std::size_t number) {
-    const auto value = static_cast<std::uint32_t>(number);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-}
-
 std::string glb_of(std::string header, std::string_view binary) {
-    constexpr std::size_t heads = 20;  // the file's and the first chunk's
+    constexpr std::uint32_t magic = 0x46546C67;  // "glTF"
     header.resize((header.size() + 3) / 4 * 4, ' ');
-    std::string bytes = "glTF";
-    append_little_endian(bytes, 2);
-    append_little_endian(bytes, heads + header.size() + binary.size());
-    append_little_endian(bytes, header.size());
-    append_little_endian(bytes, json_type);
+    std::array<std::uint32_t, 5> heads{magic, 2, 0, 0, json_type};
+    heads[2] = static_cast<std::uint32_t>(sizeof(heads) + header.size() + binary.size());
+    heads[3] = static_cast<std::uint32_t>(header.size());
+    std::string bytes(reinterpret_cast<const char*>(heads.data()), sizeof(heads));
     return bytes.append(header).append(binary);
 }
 

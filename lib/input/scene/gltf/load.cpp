@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "input/scene/copies.h"
 #include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"
@@ -69,13 +70,10 @@ std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const
 }
 
 void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeats, Scene& scene) {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f& vertex : scene.vertices)
-        box.extend(vertex.cast<double>());
+    Eigen::AlignedBox3d box = box_of(scene.vertices);
     for (std::size_t i = 0; i < extents.size(); ++i) {
         if (!repeats.by_file[i] || extents[i].box.isEmpty()) continue;
-        box.extend(Eigen::AlignedBox3d(extents[i].box.min() - scene.origin,
-                                       extents[i].box.max() - scene.origin));
+        box.extend(extents[i].box.translated(-scene.origin));
     }
     if (box.isEmpty()) return;
     scene.bounds_min = scene.origin + box.min();
@@ -128,10 +126,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
 /// True if all of the mesh's instance is the bottom of heights.
 bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
     if (!file.bottom) return false;
-    if (file.bottom->empty()) return true;
-    return file.name.empty() && std::ranges::any_of(*file.bottom, [&](const std::string& pattern) {
-               return fits_pattern(pattern, mesh.node);
-           });
+    return file.bottom->empty() || (file.name.empty() && fits_any(*file.bottom, mesh.node));
 }
 
 /// InputError, with the place in the mission, for a material that the table lacks.
@@ -256,9 +251,7 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
                                          "'; `sonarsim inspect` lists the names of its nodes");
     }
     std::erase_if(open.meshes, [&](const PlacedMesh& mesh) {
-        return !nodes.empty() && std::ranges::none_of(nodes, [&](const std::string& pattern) {
-            return fits_pattern(pattern, mesh.instance);
-        });
+        return !nodes.empty() && !fits_any(nodes, mesh.instance);
     });
     open.instance_of_mesh.assign(open.meshes.size(), 0);
     Surface surface;

@@ -177,10 +177,7 @@ void add_parts(const PlacedMesh& whole, const PlacedFile& file, const tinygltf::
         const auto index = static_cast<std::size_t>(primitive.material);
         const std::string name =
             index < model.materials.size() ? model.materials[index].name : std::string();
-        const bool is_part = std::ranges::any_of(file.parts, [&](const std::string& pattern) {
-            return !name.empty() && fits_pattern(pattern, name);
-        });
-        if (is_part)
+        if (!name.empty() && fits_any(file.parts, name))
             parts.emplace(primitive.material, name);
         else
             rest.materials.insert(primitive.material);
@@ -200,6 +197,28 @@ Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     if (!placed.z_up) T_file_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
     T_file_gltf.linear() *= placed.unit_m;
     return T_file_gltf;
+}
+
+/// Adds the meshes of a node and of those below it. `above` has the parent's transform, material
+/// and class, which a node without its own inherits.
+void place_node(const Graph& graph, int index, const PlacedMesh& above, const PlacedFile& file,
+                UniqueNames& names, std::vector<PlacedMesh>& placed) {
+    const tinygltf::Node& node = graph.node(index);
+    PlacedMesh own = above;
+    own.T_world_mesh = above.T_world_mesh * local_transform(graph, index);
+    const std::string material = sonar_extra(node.extras, "material");
+    if (!material.empty()) own.material = material;
+    const std::string label = sonar_extra(node.extras, "class");
+    if (!label.empty()) own.label = label;
+    if (node.mesh >= 0) {
+        check_rigid(graph, index);
+        own.mesh = node.mesh;
+        own.node = file.name.empty() ? names.unique(graph.name(index)) : file.name;
+        own.instance = own.node;
+        add_parts(own, file, graph.model, names, placed);
+    }
+    for (const int child : node.children)
+        place_node(graph, child, own, file, names, placed);
 }
 
 }  // namespace
@@ -224,49 +243,16 @@ std::string UniqueNames::unique(const std::string& name) {
     return candidate;
 }
 
-std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& placed_file,
+std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& file,
                                      UniqueNames& names) {
-    const std::string file = placed_file.file.string();
-    const Graph graph{model, file};
+    const std::string path = file.file.string();
+    const Graph graph{model, path};
     const std::vector<int> parent = parents_of(graph);
-
-    struct Visit {
-        int node;
-        Eigen::Affine3d T_world_parent;
-        std::string material;
-        std::string label;
-    };
-    const Eigen::Affine3d T_world_gltf = placed_file.T_world_file * file_from_gltf(placed_file);
-    std::vector<Visit> pending;
-    const auto push = [&pending](const std::vector<int>& nodes, const auto& transform,
-                                 const std::string& material, const std::string& label) {
-        // Pushed in reverse, so that the stack yields them in their order.
-        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            pending.push_back({*node, transform, material, label});
-        }
-    };
-    push(scene_roots(graph, parent), T_world_gltf, "", "");
-
+    PlacedMesh world;
+    world.T_world_mesh = file.T_world_file * file_from_gltf(file);
     std::vector<PlacedMesh> placed;
-    while (!pending.empty()) {
-        const Visit visit = std::move(pending.back());
-        pending.pop_back();
-        const tinygltf::Node& node = graph.node(visit.node);
-        const Eigen::Affine3d T_world_node =
-            visit.T_world_parent * local_transform(graph, visit.node);
-        const std::string own = sonar_extra(node.extras, "material");
-        const std::string& material = own.empty() ? visit.material : own;
-        const std::string own_class = sonar_extra(node.extras, "class");
-        const std::string& label = own_class.empty() ? visit.label : own_class;
-        if (node.mesh >= 0) {
-            check_rigid(graph, visit.node);
-            const std::string name =
-                placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name;
-            add_parts({node.mesh, T_world_node, name, material, label, name}, placed_file, model,
-                      names, placed);
-        }
-        push(node.children, T_world_node, material, label);
-    }
+    for (const int root : scene_roots(graph, parent))
+        place_node(graph, root, world, file, names, placed);
     return placed;
 }
 

@@ -11,19 +11,24 @@ namespace {
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
 constexpr std::size_t piece_cost = 64;
 
+/// The primitive's material in the file; null if it has none or one that does not exist.
+const tinygltf::Material* material_of(const PlacedPrimitive& primitive) {
+    const auto& materials = primitive.file.model->materials;
+    const auto index = static_cast<std::size_t>(primitive.material);
+    return index < materials.size() ? &materials[index] : nullptr;
+}
+
 /// The name of a primitive's material in the file; "" if it has none.
 std::string name_in_file(const PlacedPrimitive& primitive) {
     if (!primitive.mesh.material.empty()) return primitive.mesh.material;
     if (primitive.material < 0) return "";
-    const auto index = static_cast<std::size_t>(primitive.material);
-    const tinygltf::Model& model = *primitive.file.model;
-    if (index >= model.materials.size()) {
-        throw InputError(primitive.where + ": material " + std::to_string(index) +
+    const tinygltf::Material* const material = material_of(primitive);
+    if (!material) {
+        throw InputError(primitive.where + ": material " + std::to_string(primitive.material) +
                          " does not exist");
     }
-    const tinygltf::Material& material = model.materials[index];
-    const std::string own = sonar_extra(material.extras, "material");
-    return own.empty() ? material.name : own;
+    const std::string own = sonar_extra(material->extras, "material");
+    return own.empty() ? material->name : own;
 }
 
 }  // namespace
@@ -70,11 +75,9 @@ std::string user_of(const PlacedPrimitive& primitive) {
 
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name) {
     if (!primitive.file.placed->class_name.empty()) return;
-    if (!primitive.mesh.label.empty() || primitive.material < 0) return;
-    const auto index = static_cast<std::size_t>(primitive.material);
-    const tinygltf::Model& model = *primitive.file.model;
-    if (index >= model.materials.size()) return;  // reported where the material is looked up
-    const std::string own = sonar_extra(model.materials[index].extras, "class");
+    const tinygltf::Material* const material = material_of(primitive);
+    if (!primitive.mesh.label.empty() || !material) return;
+    const std::string own = sonar_extra(material->extras, "class");
     if (own.empty() || own == class_name) return;
     if (!class_name.empty()) {
         throw InputError(primitive.where + " of node '" + primitive.mesh.instance +

@@ -21,15 +21,9 @@ double half_unit(double x) {
 }
 
 /// The settings that decide how a file is read, without its place.
-auto reading_of(const PlacedFile& file) {
+auto settings_of(const PlacedFile& file) {
     return std::tie(file.file, file.unit_m, file.z_up, file.material, file.class_name);
 }
-
-struct LessReading {
-    bool operator()(const PlacedFile* a, const PlacedFile* b) const {
-        return reading_of(*a) < reading_of(*b);
-    }
-};
 
 std::size_t triangles_of(const OpenFile& file) {
     std::size_t triangles = 0;
@@ -100,10 +94,10 @@ SurfaceExtent moved(const SurfaceExtent& extent, const Eigen::Affine3d& transfor
 Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_threshold,
                      ReadingLimit& limit) {
     constexpr std::size_t max_triangles = 0xFFFF0000U;
-    std::map<const PlacedFile*, std::vector<std::size_t>, LessReading> alike;
+    std::map<decltype(settings_of(PlacedFile())), std::vector<std::size_t>> alike;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PlacedFile& file = *open[i].placed;
-        if (!file.name.empty() && !file.moves) alike[&file].push_back(i);
+        if (!file.name.empty() && !file.moves) alike[settings_of(file)].push_back(i);
     }
     std::erase_if(alike, [](const auto& group) { return group.second.size() < 2; });
     std::size_t triangles = 0;
@@ -113,7 +107,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
     repeats.by_file.assign(open.size(), nullptr);
     if (triangles <= sharing_threshold) return repeats;
     if (triangles > max_triangles) {
-        throw InputError(alike.begin()->first->place,
+        throw InputError(open[alike.begin()->second.front()].placed->place,
                          "repeated files have " + std::to_string(triangles) +
                              " triangles together with this one; at most 4294901760 are supported");
     }

@@ -1,5 +1,7 @@
 #include "input/scene/gltf/triangles.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -14,6 +16,10 @@ namespace {
 constexpr std::size_t max_count = std::size_t{1} << 28;
 /// Elements without a bufferView are zeros, which take memory and no bytes of the file.
 constexpr std::size_t max_zeros = std::size_t{1} << 20;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+    throw InputError(where + ": " + what);
+}
 
 template <class T>
 double number(const unsigned char* bytes, bool is_normalized) {
@@ -48,30 +54,28 @@ const ComponentType* component_of(int number_of_type) {
 /// their buffer.
 Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset,
                 std::size_t element_bytes, std::size_t count, const std::string& where) {
-    const std::string name = "bufferView " + std::to_string(view_index);
-    if (static_cast<std::size_t>(view_index) >= model.bufferViews.size()) {
-        throw InputError(where + ": " + name + " does not exist");
-    }
-    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
-    if (static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
-        throw InputError(where + ": " + name + " lies in buffer " + std::to_string(view.buffer) +
-                         ", which does not exist");
-    }
-    const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    const std::string name = fmt::format("bufferView {}", view_index);
+    const auto index = static_cast<std::size_t>(view_index);
+    if (index >= model.bufferViews.size()) refuse(where, name + " does not exist");
+    const tinygltf::BufferView& view = model.bufferViews[index];
+    const auto buffer = static_cast<std::size_t>(view.buffer);
+    if (buffer >= model.buffers.size())
+        refuse(where, fmt::format("{} lies in buffer {}, which does not exist", name, view.buffer));
+    const auto& bytes = model.buffers[buffer].data;
     if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
-        throw InputError(where + ": " + name + " reaches beyond the end of its buffer (" +
-                         std::to_string(bytes.size()) + " bytes)");
+        refuse(where, fmt::format("{} reaches beyond the end of its buffer ({} bytes)", name,
+                                  bytes.size()));
     }
     const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
     if (stride < element_bytes) {
-        throw InputError(where + ": byteStride " + std::to_string(stride) +
-                         " is less than the size of an element, " + std::to_string(element_bytes));
+        refuse(where, fmt::format("byteStride {} is less than the size of an element, {}", stride,
+                                  element_bytes));
     }
     // `max_count` limits the count, and strides are at most 252, so that this does not overflow.
     const std::size_t needed = stride * (count - 1) + element_bytes;
     if (needed > view.byteLength || offset > view.byteLength - needed) {
-        throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
-                         " is too short for them (" + std::to_string(view.byteLength) + " bytes)");
+        refuse(where, fmt::format("claims {} elements; {} is too short for them ({} bytes)", count,
+                                  name, view.byteLength));
     }
     return {bytes.data() + view.byteOffset + offset, stride};
 }
@@ -81,12 +85,11 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
     const auto& sparse = from.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     if (count == 0 || count > to.count) {
-        throw InputError(where + ": sparse count " + std::to_string(count) +
-                         " is not between 1 and the accessor's " + std::to_string(to.count));
+        refuse(where, fmt::format("sparse count {} is not between 1 and the accessor's {}", count,
+                                  to.count));
     }
     const ComponentType* const type = component_of(sparse.indices.componentType);
-    if (!type || !type->is_index)
-        throw InputError(where + ": sparse indices must be unsigned integers");
+    if (!type || !type->is_index) refuse(where, "sparse indices must be unsigned integers");
     const Elements indices = locate(model, sparse.indices.bufferView,
                                     static_cast<std::size_t>(sparse.indices.byteOffset),
                                     type->bytes, count, where + ": sparse indices");
@@ -95,10 +98,8 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
                element_bytes, count, where + ": sparse values");
     for (std::size_t i = 0; i < count; ++i) {
         const auto at = static_cast<std::uint32_t>(type->read(indices.at(i), false));
-        if (at >= to.count || (i > 0 && at <= to.sparse_at.back())) {
-            throw InputError(where + ": sparse indices must ascend and stay below " +
-                             std::to_string(to.count));
-        }
+        if (at >= to.count || (i > 0 && at <= to.sparse_at.back()))
+            refuse(where, fmt::format("sparse indices must ascend and stay below {}", to.count));
         to.sparse_at.push_back(at);
     }
 }
@@ -108,21 +109,18 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
 Accessor open_accessor(const tinygltf::Model& model, int index, bool is_positions,
                        const std::string& where) {
     if (static_cast<std::size_t>(index) >= model.accessors.size())
-        throw InputError(where + ": accessor " + std::to_string(index) + " does not exist");
+        refuse(where, fmt::format("accessor {} does not exist", index));
     const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
     const ComponentType* const type = component_of(from.componentType);
     if (is_positions && !(type && type->is_position))
-        throw InputError(where + ": positions must be float, or 8- or 16-bit integers");
+        refuse(where, "positions must be float, or 8- or 16-bit integers");
     if (!is_positions && !(type && type->is_index))
-        throw InputError(where + ": indices must be unsigned 8-, 16- or 32-bit integers");
-    if (from.type != (is_positions ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR)) {
-        throw InputError(where + ": expected an accessor of type " +
-                         (is_positions ? "VEC3" : "SCALAR"));
-    }
-    if (from.count == 0 || from.count > max_count) {
-        throw InputError(where + ": count " + std::to_string(from.count) +
-                         " is not between 1 and " + std::to_string(max_count));
-    }
+        refuse(where, "indices must be unsigned 8-, 16- or 32-bit integers");
+    if (from.type != (is_positions ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR))
+        refuse(where,
+               std::string("expected an accessor of type ") + (is_positions ? "VEC3" : "SCALAR"));
+    if (from.count == 0 || from.count > max_count)
+        refuse(where, fmt::format("count {} is not between 1 and {}", from.count, max_count));
     Accessor to;
     to.count = from.count;
     to.component = type;
@@ -132,11 +130,10 @@ Accessor open_accessor(const tinygltf::Model& model, int index, bool is_position
         to.elements =
             locate(model, from.bufferView, from.byteOffset, element_bytes, to.count, where);
     } else if (!from.sparse.isSparse) {
-        throw InputError(where + ": has neither a bufferView nor sparse elements");
+        refuse(where, "has neither a bufferView nor sparse elements");
     } else if (from.count > max_zeros) {
-        throw InputError(where + ": count " + std::to_string(from.count) +
-                         " needs a bufferView; without one it is at most " +
-                         std::to_string(max_zeros));
+        refuse(where, fmt::format("count {} needs a bufferView; without one it is at most {}",
+                                  from.count, max_zeros));
     }
     if (from.sparse.isSparse) open_sparse(model, from, element_bytes, to, where);
     return to;
@@ -179,26 +176,21 @@ std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
                                              const std::string& where) {
-    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-        throw InputError(where + ": mode " + std::to_string(primitive.mode) +
-                         " is not one of glTF's, 0 to 6");
-    }
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        refuse(where, fmt::format("mode {} is not one of glTF's, 0 to 6", primitive.mode));
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
     const auto attribute = primitive.attributes.find("POSITION");
-    if (attribute == primitive.attributes.end()) throw InputError(where + ": has no POSITION");
+    if (attribute == primitive.attributes.end()) refuse(where, "has no POSITION");
 
     TriangleSource source;
     source.mode = primitive.mode;
     source.positions = open_accessor(model, attribute->second, true, where + ": POSITION");
-    if (primitive.indices >= 0) {
+    if (primitive.indices >= 0)
         source.indices = open_accessor(model, primitive.indices, false, where + ": indices");
-    }
     const std::size_t corners = source.indices ? source.indices->count : source.positions.count;
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
-    if (is_list ? corners % 3 != 0 : corners < 3) {
-        throw InputError(where + ": " + std::to_string(corners) +
-                         " corners do not make whole triangles");
-    }
+    if (is_list ? corners % 3 != 0 : corners < 3)
+        refuse(where, fmt::format("{} corners do not make whole triangles", corners));
     source.count = is_list ? corners / 3 : corners - 2;
     return source;
 }
@@ -215,9 +207,8 @@ std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& s
                                                         : static_cast<std::uint32_t>(corners[k]);
             triangles[i][k] = vertex;
             if (vertex < source.positions.count) continue;
-            throw InputError(where + ": index " + std::to_string(vertex) +
-                             " is out of range; there are " +
-                             std::to_string(source.positions.count) + " vertices");
+            refuse(where, fmt::format("index {} is out of range; there are {} vertices", vertex,
+                                      source.positions.count));
         }
     }
     return triangles;

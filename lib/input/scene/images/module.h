@@ -37,6 +37,7 @@ using SonarsimReadImage = int (*)(const char* format, const char* file, Sonarsim
 
 namespace sonarsim {
 
+inline constexpr const char* image_module = "images";
 /// The number rises with every change above, so that a module of another version is not used.
 inline constexpr const char* image_module_symbol = "sonarsim_read_image_3";
 

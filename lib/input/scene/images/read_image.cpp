@@ -72,20 +72,14 @@ float* make_no_room(void* user, const SonarsimImageHead* head) {
 
 Reading read_with_module(const std::filesystem::path& path, const std::string& format,
                          const Location& where, SonarsimImageStart start) {
+    const auto read = reinterpret_cast<SonarsimReadImage>(
+        module_symbol(image_module, image_module_symbol, "libopenimageio-dev", where));
     std::array<char, 400> error{};
     Reading reading{};
-    std::string reason;
-    try {
-        const auto read = reinterpret_cast<SonarsimReadImage>(
-            module_symbol(image_module, image_module_symbol, image_package));
-        if (read(format.c_str(), path.c_str(), start, &reading, error.data(), error.size()) != 0)
-            reason = error.data();
-    } catch (const InputError& fault) {
-        reason = fault.what();
-    }
-    std::ranges::replace(reason, '\n', ' ');
-    if (!reason.empty()) throw InputError(where, "cannot be read: " + printable(reason));
-    return reading;
+    if (read(format.c_str(), path.c_str(), start, &reading, error.data(), error.size()) == 0)
+        return reading;
+    std::ranges::replace(error, '\n', ' ');
+    throw InputError(where, "cannot be read: " + printable(error.data()));
 }
 
 /// Reads the pixels and the head of a file.

@@ -27,25 +27,26 @@ namespace sonarsim {
 
 namespace {
 
-/// A map, and where it applies.
-struct AppliedMapRule {
-    const AppliedMapConfig& map;
-    std::string section;           ///< section of the mission, for messages
-    Eigen::AlignedBox2d needed_m;  ///< the part that is kept, world x and y
-};
-
+constexpr const char* sediment_section = "scene.sediment_map";
+constexpr const char* backscatter_section = "scene.backscatter_map";
 constexpr std::size_t max_texels = std::size_t{1} << 24;
 
-/// Calls use(pixel, row, column) for each texel that is kept. `pixel` is null for those that change
-/// nothing: they have no value, or are transparent.
+/// The scene as seen from above, world x and y.
+Eigen::AlignedBox2d ground_of(const Scene& scene) {
+    return {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()};
+}
+
+/// Calls use(pixel, row, column) for each texel of the map within the scene. `pixel` is null for
+/// those that change nothing: they have no value, or are transparent. `section` is that of the
+/// mission, for messages.
 template <class Use>
-TexelFrame for_each_texel(const AppliedMapRule& rule, const Image& image, const Use& use) {
-    const Location where{rule.map.file.string()};
-    const Eigen::Vector2d origin(rule.map.origin_m[0], rule.map.origin_m[1]);
-    const PixelGrid grid = grid_in_metres(image, rule.map.pixel_m, rule.section, where);
+TexelFrame for_each_texel(const AppliedMapConfig& map, const Image& image, const char* section,
+                          const Scene& scene, const Use& use) {
+    const Location where{map.file.string()};
+    const Eigen::Vector2d origin(map.origin_m.data());
+    const PixelGrid grid = grid_in_metres(image, map.pixel_m, section, where);
     const PixelWindow window =
-        pixels_within(image, grid, {rule.needed_m.min() + origin, rule.needed_m.max() + origin},
-                      max_texels, where);
+        pixels_within(image, grid, ground_of(scene).translated(origin), max_texels, where);
     const int colours = image.colours();
     window.for_each([&](int row, int column) {
         const float* const pixel = image.pixel(row, column);
@@ -76,9 +77,10 @@ std::optional<double> parse_colour(const std::string& text) {
 /// for an image whose place is not known, for a key that does not fit the image's numbers or
 /// colours, and for a pixel that has no material.
 MaterialTexels read_material_map(
-    const AppliedMapRule& rule, const Image& image,
+    const SedimentMapConfig& map, const Scene& scene,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials) {
-    const Location where{rule.map.file.string()};
+    const Image image = read_image(map.file);
+    const Location where{map.file.string()};
     const bool colours = image.colours() == 3;
     if (image.colours() > 3)
         throw InputError(where, "has " + std::to_string(image.channels) +
@@ -94,15 +96,15 @@ MaterialTexels read_material_map(
         const std::optional<double> number = colours ? parse_colour(key) : parse_number(key);
         if (!number) {
             throw InputError(where, (colours ? "has colours" : "has one channel of numbers") +
-                                        std::string(", and ") + rule.section + ".materials has '" +
-                                        printable(key) + "'; write " +
+                                        std::string(", and ") + sediment_section +
+                                        ".materials has '" + printable(key) + "'; write " +
                                         (colours ? "\"#c8b478\": MATERIAL" : "7: MATERIAL"));
         }
         const auto same = std::ranges::find(out.materials, material);
         choices[*number] = static_cast<std::uint16_t>(same - out.materials.begin());
         if (same == out.materials.end()) out.materials.push_back(material);
     }
-    out.frame = for_each_texel(rule, image, [&](const float* pixel, int row, int column) {
+    const auto use = [&](const float* pixel, int row, int column) {
         if (pixel == nullptr) return out.choice.push_back(MaterialTexels::own);
         double key = *pixel;
         if (colours) key = 65536.0 * key + 256.0 * double{pixel[1]} + double{pixel[2]};
@@ -114,22 +116,24 @@ MaterialTexels read_material_map(
         throw InputError(
             where, fmt::format("row {}, column {}: {} has no material; add {}: MATERIAL to "
                                "{}.materials{}",
-                               row, column, text, text, rule.section,
+                               row, column, text, text, sediment_section,
                                colours ? "" : ", or mark it: gdal_translate -a_nodata " + text));
-    });
+    };
+    out.frame = for_each_texel(map, image, sediment_section, scene, use);
     return out;
 }
 
 /// A map of decibels, from an image of one channel, or one and alpha. Throws as the above, and for
 /// more than 100 dB.
-StrengthTexels read_strength_map(const AppliedMapRule& rule, const Image& image) {
-    const Location where{rule.map.file.string()};
+StrengthTexels read_strength_map(const AppliedMapConfig& map, const Scene& scene) {
+    const Image image = read_image(map.file);
+    const Location where{map.file.string()};
     if (image.colours() > 1)
         throw InputError(where, "has " + std::to_string(image.channels) +
                                     " channels, and a map of decibels has one: take one out, as "
                                     "with gdal_translate -b 1");
     StrengthTexels out;
-    out.frame = for_each_texel(rule, image, [&](const float* pixel, int row, int column) {
+    const auto use = [&](const float* pixel, int row, int column) {
         if (pixel == nullptr) return out.factor.push_back(1.0F);
         constexpr double max_db = 100.0;
         const double db = *pixel;
@@ -143,7 +147,8 @@ StrengthTexels read_strength_map(const AppliedMapRule& rule, const Image& image)
         }
         constexpr double per_db = 0.23025850929940457;  // ln(10) / 10
         out.factor.push_back(static_cast<float>(exponential(per_db * db)));
-    });
+    };
+    out.frame = for_each_texel(map, image, backscatter_section, scene, use);
     return out;
 }
 
@@ -156,19 +161,11 @@ std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
                          "scene.file that are the ground");
     }
     std::vector<char> on(scene.instances.size(), 0);
-    for (std::size_t i = 0; i < on.size(); ++i) {
-        on[i] = std::ranges::any_of(patterns, [&](const std::string& pattern) {
-            return fits_pattern(pattern, scene.instances[i]);
-        });
-    }
+    for (std::size_t i = 0; i < on.size(); ++i)
+        on[i] = fits_any(patterns, scene.instances[i]);
     for (const Body& body : scene.bodies)
         on[body.instance] = 0;
     return on;
-}
-
-AppliedMapRule rule_of(const AppliedMapConfig& map, const std::string& section,
-                       const Scene& scene) {
-    return {map, section, {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
 }
 
 /// The indices of the map's materials in the scene. Adds the materials that the scene lacks.
@@ -182,19 +179,17 @@ std::vector<std::pair<std::string, std::uint32_t>> add_materials(const Renaming&
         const auto found = std::ranges::find(scene.materials, name, &Material::name);
         out.emplace_back(key, static_cast<std::uint32_t>(found - scene.materials.begin()));
         if (found != scene.materials.end()) continue;
-        Material& material = scene.materials.emplace_back();
-        material.name = name;
+        scene.materials.emplace_back().name = name;
     }
     return out;
 }
 
 /// Warns if no texel lies on the scene.
 void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& scene) {
-    const Eigen::Vector2d a = frame.corner_m;
     const Eigen::Vector2d size(frame.width / frame.per_m.x(), frame.height / frame.per_m.y());
-    Eigen::AlignedBox2d map(a);
-    map.extend(Eigen::Vector2d(a + size));
-    const Eigen::AlignedBox2d ground(scene.bounds_min.head<2>(), scene.bounds_max.head<2>());
+    Eigen::AlignedBox2d map(frame.corner_m);
+    map.extend(Eigen::Vector2d(frame.corner_m + size));
+    const Eigen::AlignedBox2d ground = ground_of(scene);
     if (map.intersects(ground)) return;
     const auto text = [](const Eigen::AlignedBox2d& box) {
         const auto metres = [](double x) { return number_text(std::round(x)); };
@@ -225,26 +220,19 @@ void apply_ground_maps(const SceneConfig& config, const MaterialTable& table, co
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
     if (config.sediment_map) {
-        const std::string section = "scene.sediment_map";
         const SedimentMapConfig& map = *config.sediment_map;
         const auto scene_materials = add_materials(map.materials, table, map.place, scene);
         resolve_materials(scene, table, water);
-        materials = read_map(map, [&] {
-            return read_material_map(rule_of(map, section, scene), read_image(map.file),
-                                     scene_materials);
-        });
-        warn_of_place(materials->frame, section, scene);
+        materials = read_map(map, [&] { return read_material_map(map, scene, scene_materials); });
+        warn_of_place(materials->frame, sediment_section, scene);
     }
     if (config.backscatter_map) {
-        const std::string section = "scene.backscatter_map";
         const AppliedMapConfig& map = *config.backscatter_map;
-        strengths = read_map(map, [&] {
-            return read_strength_map(rule_of(map, section, scene), read_image(map.file));
-        });
-        warn_of_place(strengths->frame, section, scene);
+        strengths = read_map(map, [&] { return read_strength_map(map, scene); });
+        warn_of_place(strengths->frame, backscatter_section, scene);
         if (!strengths->factor.empty() &&
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
-            scene.warnings.push_back(section +
+            scene.warnings.push_back(std::string(backscatter_section) +
                                      " changes nothing: each of its pixels is unknown or "
                                      "0 dB; check its values");
         }

@@ -21,10 +21,7 @@ constexpr double cells_per_triangle = 8.0;
 constexpr std::uint64_t max_places = std::uint64_t{1} << 28;
 
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
-    Eigen::AlignedBox2d box;
-    for (const std::uint32_t vertex : surface.triangles[triangle])
-        box.extend(surface.vertices[vertex].head<2>());
-    return box;
+    return box_from_above(corners_of(surface, triangle));
 }
 
 /// height_above() without std::optional, which compilers pass through memory. False if there is no
@@ -59,17 +56,8 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
         side_ /= 2;
     // Count first, then fill.
     std::vector<std::uint32_t> size(static_cast<std::size_t>(side_) * side_ + 1, 0);
-    const auto for_each_cell = [&](std::uint32_t triangle, const auto& visit) {
-        const Eigen::AlignedBox2d box = area_of(surface_, triangle);
-        const Eigen::Array2i from = cell_of(box.min());
-        const Eigen::Array2i to = cell_of(box.max());
-        for (int y = from.y(); y <= to.y(); ++y) {
-            for (int x = from.x(); x <= to.x(); ++x)
-                visit(static_cast<std::size_t>(y) * side_ + x);
-        }
-    };
     for (std::uint32_t t = 0; t < count; ++t)
-        for_each_cell(t, [&](std::size_t cell) { ++size[cell + 1]; });
+        for_each_cell(area_of(surface_, t), [&](std::size_t cell) { ++size[cell + 1]; });
     std::partial_sum(size.begin(), size.end(), size.begin());
     begin_ = size;
     triangles_.resize(size.back());
@@ -87,7 +75,8 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
     std::ranges::stable_sort(downwards, std::greater{},
                              [&](std::uint32_t t) { return boxes_[t].max().z(); });
     for (const std::uint32_t t : downwards)
-        for_each_cell(t, [&](std::size_t cell) { triangles_[size[cell]++] = t; });
+        for_each_cell(area_of(surface_, t),
+                      [&](std::size_t cell) { triangles_[size[cell]++] = t; });
 }
 
 std::uint64_t Bottom::places_of_triangles() const {

@@ -31,18 +31,22 @@ class Bottom {
     /// Calls `visit` with the index of every triangle that may meet the box, some more than once.
     template <class Visit>
     void for_each_near(const Eigen::AlignedBox2d& box, const Visit& visit) const {
-        const Eigen::Array2i from = cell_of(box.min());
-        const Eigen::Array2i to = cell_of(box.max());
-        for (int y = from.y(); y <= to.y(); ++y) {
-            for (int x = from.x(); x <= to.x(); ++x) {
-                const auto cell = static_cast<std::size_t>(y) * side_ + x;
-                for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k)
-                    visit(triangles_[k]);
-            }
-        }
+        for_each_cell(box, [&](std::size_t cell) {
+            for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k)
+                visit(triangles_[k]);
+        });
     }
 
   private:
+    template <class Visit>
+    void for_each_cell(const Eigen::AlignedBox2d& box, const Visit& visit) const {
+        const Eigen::Array2i from = cell_of(box.min());
+        const Eigen::Array2i to = cell_of(box.max());
+        for (int y = from.y(); y <= to.y(); ++y) {
+            for (int x = from.x(); x <= to.x(); ++x)
+                visit(static_cast<std::size_t>(y) * side_ + x);
+        }
+    }
     Eigen::Array2i cell_of(const Eigen::Vector2d& point) const;
     /// The number of triangles in all cells of the grid, a triangle once in each of its cells.
     std::uint64_t places_of_triangles() const;

@@ -10,13 +10,6 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-Eigen::AlignedBox2d box_from_above(const Corners& corners) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector3d& corner : corners)
-        box.extend(corner.head<2>());
-    return box;
-}
-
 /// Height of the second edge above the first where they cross, seen from above; minus infinity if
 /// they do not cross.
 double rise_at_crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,

@@ -1,5 +1,7 @@
 #include "input/scene/placing/scatter.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,14 +82,13 @@ struct Refusals {
 
 [[noreturn]] void give_up(const ScatterConfig& rule, std::size_t object, std::size_t count,
                           const Refusals& refusals) {
-    throw InputError(rule.place,
-                     "'" + printable(rule.name) + "': object " + std::to_string(object + 1) +
-                         " of " + std::to_string(count) + " finds no room in " +
-                         std::to_string(max_tries) + " tries: " + std::to_string(refusals.outside) +
-                         " reach out of the area, " + std::to_string(refusals.taken) +
-                         " come too near to other objects, " + std::to_string(refusals.no_bottom) +
-                         " have no bottom below; take a larger area, fewer or smaller objects or "
-                         "less spacing_m");
+    throw InputError(
+        rule.place,
+        fmt::format("'{}': object {} of {} finds no room in {} tries: {} reach out of the area, {} "
+                    "come too near to other objects, {} have no bottom below; take a larger area, "
+                    "fewer or smaller objects or less spacing_m",
+                    printable(rule.name), object + 1, count, max_tries, refusals.outside,
+                    refusals.taken, refusals.no_bottom));
 }
 
 Hull shifted(Hull hull, const Eigen::Vector2d& by) {
@@ -246,10 +247,9 @@ std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
         for (std::uint32_t redraw = 0; redraw < most_redraws && !placed; ++redraw)
             placed = place_one(rule, shapes, draws, redraw, bottom, taken, i, count);
         if (!placed) {
-            throw InputError(rule.place,
-                             "'" + printable(rule.name) + "': object " + std::to_string(i + 1) +
-                                 " lies wholly below the bottom in all of " +
-                                 std::to_string(most_redraws) + " draws; lower bury or bury_m");
+            throw InputError(rule.place, fmt::format("'{}': object {} lies wholly below the bottom "
+                                                     "in all of {} draws; lower bury or bury_m",
+                                                     printable(rule.name), i + 1, most_redraws));
         }
         if (!rule.overlap) taken.add(std::move(placed->ground));
         objects.push_back(placed->object);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,10 +9,21 @@
 #include "input/scene/seabed/bed_grid.h"
 #include "input/scene/seabed/relief.h"
 #include "input/scene/seabed/rocks.h"
-#include "input/scene/seabed/sediments.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {
+
+/// The sediments of a grid, as indices into a list. A point has the index of as many limits as its
+/// value exceeds.
+struct BedSediments {
+    std::vector<std::uint8_t> cells;  ///< at the middles of the cells, in the order of the grid
+    std::vector<float> values;        ///< likewise; none of a single sediment
+    std::vector<float> limits;        ///< rising
+    float mixed = 0.0F;  ///< sediments mix where a value is nearer to a limit than this
+};
+
+/// The mixtures on each side of a border.
+inline constexpr std::size_t border_mixtures = 2;
 
 /// A bed, or a part of one.
 struct Seabed {
