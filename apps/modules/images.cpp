@@ -107,39 +107,32 @@ void check_exr_header(const char* file) {
     if (!in) throw std::runtime_error("its header is damaged: copy or export it again");
 }
 
-template <class T>
-void read_values(ImageInput& input, const ImageSpec& spec, TypeDesc type, float* values) {
+/// Reads the pixels if they are of `type`, that of T, or half where it is FLOAT. Returns false if
+/// they are of another.
+template <class T, TypeDesc::BASETYPE type>
+bool read_values(ImageInput& input, const ImageSpec& spec, float* values) {
+    const bool is_half = type == TypeDesc::FLOAT && spec.format.basetype == TypeDesc::HALF;
+    if (spec.format.basetype != type && !is_half) return false;
     std::vector<T> pixels(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
     if (!input.read_image(0, 0, 0, spec.nchannels, type, pixels.data()))
         throw std::runtime_error(input.geterror() + " (OpenImageIO)");
-    std::transform(pixels.begin(), pixels.end(), values,
-                   [](T pixel) { return static_cast<float>(pixel); });
+    std::ranges::transform(pixels, values, [](T pixel) { return static_cast<float>(pixel); });
+    return true;
 }
 
 void read_pixels(ImageInput& input, const ImageSpec& spec, float* values) {
-    switch (spec.format.basetype) {
-        case TypeDesc::UINT8:
-            return read_values<std::uint8_t>(input, spec, TypeDesc::UINT8, values);
-        case TypeDesc::INT8:
-            return read_values<std::int8_t>(input, spec, TypeDesc::INT8, values);
-        case TypeDesc::UINT16:
-            return read_values<std::uint16_t>(input, spec, TypeDesc::UINT16, values);
-        case TypeDesc::INT16:
-            return read_values<std::int16_t>(input, spec, TypeDesc::INT16, values);
-        case TypeDesc::UINT32:
-            return read_values<std::uint32_t>(input, spec, TypeDesc::UINT32, values);
-        case TypeDesc::INT32:
-            return read_values<std::int32_t>(input, spec, TypeDesc::INT32, values);
-        case TypeDesc::HALF:
-        case TypeDesc::FLOAT:
-            return read_values<float>(input, spec, TypeDesc::FLOAT, values);
-        case TypeDesc::DOUBLE:
-            return read_values<double>(input, spec, TypeDesc::DOUBLE, values);
-        default:
-            throw std::runtime_error(std::string("samples of the type ") + spec.format.c_str() +
-                                     " are not read; make numbers of 32 bits of them with "
-                                     "gdal_translate -ot Float32");
-    }
+    const bool is_read = read_values<std::uint8_t, TypeDesc::UINT8>(input, spec, values) ||
+                         read_values<std::int8_t, TypeDesc::INT8>(input, spec, values) ||
+                         read_values<std::uint16_t, TypeDesc::UINT16>(input, spec, values) ||
+                         read_values<std::int16_t, TypeDesc::INT16>(input, spec, values) ||
+                         read_values<std::uint32_t, TypeDesc::UINT32>(input, spec, values) ||
+                         read_values<std::int32_t, TypeDesc::INT32>(input, spec, values) ||
+                         read_values<float, TypeDesc::FLOAT>(input, spec, values) ||
+                         read_values<double, TypeDesc::DOUBLE>(input, spec, values);
+    if (is_read) return;
+    throw std::runtime_error(std::string("samples of the type ") + spec.format.c_str() +
+                             " are not read; make numbers of 32 bits of them with "
+                             "gdal_translate -ot Float32");
 }
 
 bool is_whole(const ImageSpec& spec) {

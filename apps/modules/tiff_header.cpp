@@ -14,10 +14,6 @@ struct Closer {
     void operator()(TIFF* tiff) const { TIFFClose(tiff); }
 };
 
-std::runtime_error fault(const std::string& what) {
-    return std::runtime_error(what);
-}
-
 /// The values of a tag that libtiff does not know, as the file has them.
 template <class T>
 struct Values {
@@ -54,34 +50,37 @@ void require_pieces(TIFF* tiff) {
         const std::uint64_t offset = TIFFGetStrileOffset(tiff, i);
         const std::uint64_t bytes = TIFFGetStrileByteCount(tiff, i);
         if (bytes == 0) {
-            throw fault(
+            throw std::runtime_error(
                 "it has empty tiles or strips; fill them with the no-data value, as "
                 "gdal_translate does");
         }
         if (offset > file_bytes || bytes > file_bytes - offset)
-            throw fault("it ends before its pixels do: it was cut off; copy it again");
+            throw std::runtime_error("it ends before its pixels do: it was cut off; copy it again");
     }
 }
 
 void require_numbers(TIFF* tiff) {
     const unsigned bits = short_of(tiff, TIFFTAG_BITSPERSAMPLE);
     if (bits != 8 && bits != 16 && bits != 32 && bits != 64) {
-        throw fault("its numbers have " + std::to_string(bits) +
-                    " bits; write it with gdal_translate -ot Float32");
+        throw std::runtime_error("its numbers have " + std::to_string(bits) +
+                                 " bits; write it with gdal_translate -ot Float32");
     }
     std::uint16_t colours = PHOTOMETRIC_MINISBLACK;
     TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &colours);
     if (colours == PHOTOMETRIC_PALETTE)
-        throw fault("it has a palette; write its colours with gdal_translate -expand rgb");
+        throw std::runtime_error(
+            "it has a palette; write its colours with gdal_translate -expand rgb");
     if (colours != PHOTOMETRIC_MINISBLACK && colours != PHOTOMETRIC_RGB) {
-        throw fault(
+        throw std::runtime_error(
             "its numbers are neither plain nor red, green and blue (PhotometricInterpretation " +
             std::to_string(colours) + "), and would not stay exact; export it as PNG");
     }
     if (TIFFIsTiled(tiff) != 0 && bits == 64)
-        throw fault("it has tiles of 64-bit numbers; write it with gdal_translate -ot Float32");
+        throw std::runtime_error(
+            "it has tiles of 64-bit numbers; write it with gdal_translate -ot Float32");
     if (TIFFIsBigEndian(tiff) != 0 && short_of(tiff, TIFFTAG_PREDICTOR) == PREDICTOR_FLOATINGPOINT)
-        throw fault("it is big-endian with the predictor of floats; write it with gdal_translate");
+        throw std::runtime_error(
+            "it is big-endian with the predictor of floats; write it with gdal_translate");
 }
 
 /// A key of GeoTIFF whose value is a short; 0 if the file lacks it.
@@ -106,7 +105,7 @@ double metres_of_unit(const Values<std::uint16_t>& keys) {
         case 9003:
             return 1200.0 / 3937.0;
         default:
-            throw fault(
+            throw std::runtime_error(
                 "its coordinates are neither in metres nor in feet; make a map in metres of it, "
                 "as with gdalwarp -t_srs EPSG:32632");
     }
@@ -125,7 +124,7 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     const auto keys = values_of<std::uint16_t>(tiff, 34735, TIFF_SHORT);
     if (scale.count == 0 && tie.count == 0 && matrix.count == 0) return;
     if (scale.count < 2 || tie.count != 6) {
-        throw fault(
+        throw std::runtime_error(
             "its GeoTIFF tags do not give one tie point and a pixel size; make a plain map of it, "
             "as with gdalwarp");
     }
@@ -154,7 +153,7 @@ void read_no_data(TIFF* tiff, SonarsimImageHead& head) {
     for (int image = 0; image < max_images && TIFFReadDirectory(tiff) == 1; ++image) {
         std::uint32_t kind = 0;
         if (TIFFGetField(tiff, TIFFTAG_SUBFILETYPE, &kind) == 1 && (kind & FILETYPE_MASK) != 0) {
-            throw fault(
+            throw std::runtime_error(
                 "it marks unknown pixels by a mask, which is not read; mark them by a value, as "
                 "with gdalwarp -dstnodata -9999");
         }
@@ -171,7 +170,7 @@ void read_tiff_header(const char* file, SonarsimImageHead& head) {
     const std::unique_ptr<TIFF, Closer> tiff(TIFFOpen(file, "r"));
     TIFFSetErrorHandler(errors);
     TIFFSetWarningHandler(warnings);
-    if (!tiff) throw fault("its header is damaged: copy or export it again");
+    if (!tiff) throw std::runtime_error("its header is damaged: copy or export it again");
     require_numbers(tiff.get());
     require_pieces(tiff.get());
     read_grid(tiff.get(), head);

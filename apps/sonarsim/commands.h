@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <initializer_list>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "exit_codes.h"
+#include "logging.h"
 
 namespace sonarsim {
 
@@ -22,6 +25,22 @@ inline CLI::App& add_command(CLI::App& app, const char* name, const char* meanin
     CLI::App& command = *app.add_subcommand(name, meaning)->group(group);
     add_examples(command, examples);
     return command;
+}
+
+/// The same with the arguments of `run`, which live as long as the subcommand. Its callback starts
+/// the log and stores the exit code of `run`.
+template <class Arguments>
+std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, int& exit_code, const char* name,
+                                             const char* meaning, const char* group,
+                                             std::initializer_list<const char*> examples,
+                                             int (*run)(const Arguments&)) {
+    CLI::App& command = add_command(app, name, meaning, group, examples);
+    const auto arguments = std::make_shared<Arguments>();
+    command.callback([arguments, run, &exit_code] {
+        start_logging(arguments->log);
+        exit_code = run(*arguments);
+    });
+    return {command, *arguments};
 }
 
 // Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.

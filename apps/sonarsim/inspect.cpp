@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/text.h"
@@ -16,7 +14,6 @@
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 #include "input/scene/summary.h"
-#include "logging.h"
 #include "mission_options.h"
 #include "output/dataset/json.h"
 #include "run/checks/find_warnings.h"
@@ -27,8 +24,6 @@
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct InspectArguments {
     std::filesystem::path scene;
@@ -88,7 +83,7 @@ void print_materials(const std::filesystem::path& file, double frequency_khz, bo
             power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
     const Scattering scattering = scattering_of(table.materials, 1e3 * frequency_khz, water);
     if (as_json)
-        fmt::print("{}", json_line(strengths_json(table, scattering, frequency_khz)));
+        fmt::print("{}\n", json_line(strengths_json(table, scattering, frequency_khz)));
     else
         print_strengths(table, scattering, frequency_khz);
 }
@@ -165,7 +160,6 @@ PlacedFile file_of(const InspectArguments& arguments) {
 }
 
 int inspect(const InspectArguments& arguments) {
-    start_logging(arguments.log);
     const std::string extension = arguments.scene.extension().string();
     if (extension == ".csv") {
         print_materials(arguments.scene, arguments.frequency_khz, arguments.log.json);
@@ -193,7 +187,7 @@ int inspect(const InspectArguments& arguments) {
         if (!arguments.materials.empty()) json["acoustics"] = acoustics_json(scene, table);
         if (is_mesh_file(file.file)) json["read_as"] = reading_of(file);
         json["questions"] = questions;
-        fmt::print("{}", json_line(json));
+        fmt::print("{}\n", json_line(json));
     } else {
         if (is_mesh_file(file.file)) fmt::print("read as    {}\n", reading_of(file));
         fmt::print("{}", describe_scene(scene));
@@ -210,33 +204,32 @@ int inspect(const InspectArguments& arguments) {
 }  // namespace
 
 void add_inspect(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound",
-        "Look",
+    auto [command, arguments] = add_command(
+        app, exit_code, "inspect",
+        "Prints what is in a scene, or how the materials of a CSV scatter sound", "Look",
         {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
-         "sonarsim inspect bathymetry.tif", "sonarsim inspect materials.csv --frequency-khz 900"});
-    auto arguments = std::make_shared<InspectArguments>();
+         "sonarsim inspect bathymetry.tif", "sonarsim inspect materials.csv --frequency-khz 900"},
+        inspect);
     command
         .add_option(
-            "scene", arguments->scene,
+            "scene", arguments.scene,
             "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights; or a "
             ".csv of materials")
         ->required();
-    add_mesh_options(command, arguments->read_as, "m", "y");
+    add_mesh_options(command, arguments.read_as, "m", "y");
     command
-        .add_option("--pixel-m", arguments->pixel_m,
+        .add_option("--pixel-m", arguments.pixel_m,
                     "Size of a pixel of an image of heights (default: as the file says)")
         ->check(CLI::PositiveNumber);
-    command.add_option("--materials", arguments->materials,
+    command.add_option("--materials", arguments.materials,
                        "A CSV of materials: shows their reflection coefficients in fresh water");
-    command.add_flag("--materials-csv", arguments->as_csv,
+    command.add_flag("--materials-csv", arguments.as_csv,
                      "Prints a CSV of the scene's materials to fill in, and nothing else");
     command
-        .add_option("--frequency-khz", arguments->frequency_khz,
+        .add_option("--frequency-khz", arguments.frequency_khz,
                     "For a CSV of materials: the frequency in fresh water (default: 400)")
         ->check(CLI::Range(1.0, 10000.0));
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = inspect(*arguments); });
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

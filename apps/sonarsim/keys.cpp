@@ -1,7 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/error.h"
@@ -14,8 +13,6 @@
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json key_json(const KeyReference& key) {
     Json json{{"name", key.name}, {"type", key.type}};

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <utility>
 
@@ -54,7 +53,7 @@ class TextFormatter : public spdlog::formatter {
 
 /// Adds what a message begins with as fields: the number of a warning, "W12 ", and the place,
 /// "file:line:column: ".
-void add_fields(nlohmann::ordered_json& line, std::string_view message) {
+void add_fields(Json& line, std::string_view message) {
     static const std::regex code("(W[0-9]{2,3}) ");
     static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");
     std::cmatch found;
@@ -76,13 +75,13 @@ class JsonFormatter : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& out) override {
         const auto now = std::chrono::floor<std::chrono::milliseconds>(message.time);
-        nlohmann::ordered_json line;
+        Json line;
         line["time"] = fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(now),
                                    now.time_since_epoch().count() % 1000);
         line["level"] = view(spdlog::level::to_string_view(message.level));
         line["message"] = view(message.payload);
         add_fields(line, view(message.payload));
-        const std::string text = json_line(line);
+        const std::string text = json_line(line) + "\n";
         out.append(text.data(), text.data() + text.size());
     }
     std::unique_ptr<spdlog::formatter> clone() const override {
@@ -141,16 +140,12 @@ std::size_t log_warnings(std::span<const Warning> warnings) {
 }
 
 std::string warning_line(const LogOptions& options, const std::string& message) {
-    if (options.json) return json_line({{"level", "warning"}, {"message", message}});
+    if (options.json) return json_line({{"level", "warning"}, {"message", message}}) + "\n";
     return start_of_line() + "warning: " + message + "\n";
 }
 
 std::string result_line(std::string_view head, const std::string& rest) {
     return fmt::format("{:<12}{}\n", head, printable(rest));
-}
-
-std::string json_line(const nlohmann::ordered_json& json) {
-    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string duration_text(double seconds) {

@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "output/dataset/json.h"
 #include "run/checks/warning.h"
 #include "run/job/parallel.h"
 
@@ -41,10 +41,6 @@ std::string warning_line(const LogOptions& options, const std::string& message);
 
 /// A line of a result for people: "mission     hull". Control characters are masked.
 std::string result_line(std::string_view head, const std::string& rest);
-
-/// JSON on one line, with the line feed. Bytes that are not UTF-8, as in a file name, become
-/// U+FFFD.
-std::string json_line(const nlohmann::ordered_json& json);
 
 /// A duration as text: "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);

@@ -3,12 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "commands.h"
-#include "logging.h"
 #include "run/checks/warning.h"
 #include "signals.h"
 
@@ -29,7 +27,6 @@ struct MergeArguments {
 };
 
 int merge(const MergeArguments& arguments) {
-    start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     MergeSummary summary;
@@ -38,10 +35,10 @@ int merge(const MergeArguments& arguments) {
         summary = merge_parts(arguments.parts(), arguments.out(), line.callback(), stop);
     }
     if (arguments.log.json) {
-        fmt::print("{}", json_line({{"pings", summary.pings},
-                                    {"skipped", summary.skipped},
-                                    {"missing", summary.missing},
-                                    {"complete", summary.complete}}));
+        fmt::print("{}\n", json_line({{"pings", summary.pings},
+                                      {"skipped", summary.skipped},
+                                      {"missing", summary.missing},
+                                      {"complete", summary.complete}}));
     }
     if (summary.unlocked)
         spdlog::warn("{}", sentence(make_warning(WarningCode::no_locks, arguments.out().string())));
@@ -63,21 +60,20 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(app, "merge",
-                                    "Copies the shards of one mission into one folder, "
-                                    "which sonarsim render then completes",
-                                    "Make",
-                                    {"sonarsim merge out/part1 out/part2 out/hull",
-                                     "sonarsim render mission.yaml --out out/hull"});
-    auto arguments = std::make_shared<MergeArguments>();
+    auto [command, arguments] = add_command(app, exit_code, "merge",
+                                            "Copies the shards of one mission into one folder, "
+                                            "which sonarsim render then completes",
+                                            "Make",
+                                            {"sonarsim merge out/part1 out/part2 out/hull",
+                                             "sonarsim render mission.yaml --out out/hull"},
+                                            merge);
     command
-        .add_option("folders", arguments->folders,
+        .add_option("folders", arguments.folders,
                     "The folders of the parts, then the folder to write")
         ->required()
         ->expected(2, 1'000'000)
         ->type_name("PART... OUT");
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = merge(*arguments); });
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

@@ -1,10 +1,31 @@
 #include "mission_options.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "input/mission/parse.h"
 #include "simulate/assembly/mission_objects.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
+
+namespace {
+
+MissionSource source_of(const MissionOptions& options) {
+    MissionSource source{options.file, options.file.parent_path(), options.settings};
+    if (!options.seed.empty()) source.overrides.push_back("seed=" + options.seed);
+    if (!options.paths_from.empty()) source.base_folder = options.paths_from;
+    return source;
+}
+
+/// The value of a choice that the command line has checked; `fallback` for "".
+template <class T, std::size_t N>
+T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
+    const auto* const choice = std::ranges::find(choices, name, &Choice<T>::name);
+    return choice == std::end(choices) ? fallback : choice->value;
+}
+
+}  // namespace
 
 void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutput output) {
     command.add_option("mission", options.file, "The mission, a YAML file")->required();
@@ -31,17 +52,6 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& mean
         ->type_name("N");
 }
 
-namespace {
-
-MissionSource source_of(const MissionOptions& options) {
-    MissionSource source{options.file, options.file.parent_path(), options.settings};
-    if (!options.seed.empty()) source.overrides.push_back("seed=" + options.seed);
-    if (!options.paths_from.empty()) source.base_folder = options.paths_from;
-    return source;
-}
-
-}  // namespace
-
 Mission load(const MissionOptions& options) {
     Mission mission = load_mission(source_of(options), sonar_keys());
     // Relative paths on the command line start at the current folder.
@@ -53,19 +63,6 @@ Variants load_variants(const MissionOptions& options, const Mission& mission) {
     if (mission.variants == 0) return {};
     return variants_of(mission, source_of(options));
 }
-
-namespace {
-
-/// The value of a choice that the command line has checked; `fallback` for "".
-template <class T, std::size_t N>
-T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
-    for (const Choice<T>& choice : choices) {
-        if (choice.name == name) return choice.value;
-    }
-    return fallback;
-}
-
-}  // namespace
 
 MeshConfig MeshOptions::config() const {
     MeshConfig mesh;

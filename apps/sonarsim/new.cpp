@@ -1,7 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <memory>
 #include <regex>
 #include <set>
 #include <string>
@@ -18,7 +17,6 @@
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 #include "input/scene/scene.h"
-#include "logging.h"
 #include "mission_options.h"
 #include "run/job/folder.h"
 #include "simulate/assembly/placed_files.h"
@@ -226,7 +224,6 @@ void write_new(const fs::path& file, const std::string& text) {
 }
 
 int make_mission(const NewArguments& arguments) {
-    start_logging(arguments.log);
     const fs::path out =
         arguments.out.empty() ? fs::path(arguments.mesh.stem().string() + ".yaml") : arguments.out;
     const fs::path folder = fs::absolute(out).parent_path();
@@ -268,23 +265,22 @@ int make_mission(const NewArguments& arguments) {
 }  // namespace
 
 void add_new(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "new", "Writes a mission around a mesh, with its guesses marked", "Make",
-        {"sonarsim new hull.glb", "sonarsim new tyre.stl --preset gemini_720is --bed mud"});
-    auto arguments = std::make_shared<NewArguments>();
-    command.add_option("mesh", arguments->mesh, "A .gltf, .glb, .obj, .stl or .ply file")
+    auto [command, arguments] = add_command(
+        app, exit_code, "new", "Writes a mission around a mesh, with its guesses marked", "Make",
+        {"sonarsim new hull.glb", "sonarsim new tyre.stl --preset gemini_720is --bed mud"},
+        make_mission);
+    command.add_option("mesh", arguments.mesh, "A .gltf, .glb, .obj, .stl or .ply file")
         ->required();
-    command.add_option("--preset", arguments->preset,
+    command.add_option("--preset", arguments.preset,
                        "An imaging sonar, of configs/sensors or a file (default: an Oculus)");
-    command.add_option("--bed", arguments->bed,
+    command.add_option("--bed", arguments.bed,
                        "The sea bed, of configs/seabeds or a file (default: sand)");
-    add_mesh_options(command, arguments->read_as, "a guess", "a guess");
+    add_mesh_options(command, arguments.read_as, "a guess", "a guess");
     command
-        .add_option("--out", arguments->out,
+        .add_option("--out", arguments.out,
                     "The mission (default: NAME.yaml in the current folder)")
         ->type_name("FILE.yaml");
-    add_log_options(command, arguments->log, LogResult::text);
-    command.callback([arguments, &exit_code] { exit_code = make_mission(*arguments); });
+    add_log_options(command, arguments.log, LogResult::text);
 }
 
 }  // namespace sonarsim

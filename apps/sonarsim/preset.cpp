@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/units.h"
@@ -18,8 +17,6 @@
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double sphere_db = -20.0;
 
@@ -187,7 +184,7 @@ void print_presets(const PresetArguments& arguments) {
     for (const std::string& name : one ? std::vector{arguments.name} : shipped_presets())
         presets.push_back(preset_json(name, mission_of(name, arguments.settings)));
     if (arguments.json) {
-        fmt::print("{}", json_line(one ? presets.front() : Json(presets)));
+        fmt::print("{}\n", json_line(one ? presets.front() : Json(presets)));
     } else if (one) {
         print_preset(presets.front());
     } else {

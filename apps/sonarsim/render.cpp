@@ -2,9 +2,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -13,24 +12,65 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "input/mission/variants.h"
-#include "logging.h"
 #include "mission_options.h"
-#include "output/dataset/layout.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "run/job/variants.h"
-#include "shard.h"
 #include "signals.h"
 
 namespace sonarsim {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* run_again =
     "written files are complete; run the same command again to continue";
+
+/// One part of a mission, counted from 0.
+struct Shard {
+    int index = 0;
+    int count = 1;
+};
+
+constexpr std::int64_t max_shards = 1'000'000;
+
+/// Parses "2/4" of the command line, where shards count from 1. Throws CLI::ValidationError.
+Shard parse_shard(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const auto shard = parse_integer(text.substr(0, slash));
+    const auto shards =
+        slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > max_shards) {
+        throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
+    }
+    return {static_cast<int>(*shard - 1), static_cast<int>(*shards)};
+}
+
+/// The shard of this process in a Slurm array: the k-th of its n tasks is shard k/n. Nothing
+/// outside of an array. Throws InputError when the numbers of the tasks are not evenly spaced.
+std::optional<Shard> shard_of_slurm() {
+    const auto number = [](const char* name) {
+        const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): only read
+        return text != nullptr ? parse_integer(text) : std::nullopt;
+    };
+    const auto id = number("SLURM_ARRAY_TASK_ID");
+    const auto count = number("SLURM_ARRAY_TASK_COUNT");
+    if (!id || !count) return std::nullopt;
+    const std::int64_t first = number("SLURM_ARRAY_TASK_MIN").value_or(1);
+    const std::int64_t last = number("SLURM_ARRAY_TASK_MAX").value_or(*count);
+    const std::int64_t step = *count > 1 ? (last - first) / (*count - 1) : 1;
+    const bool even = *count >= 1 && *count <= max_shards && step >= 1 && *id >= first &&
+                      last - first == step * (*count - 1) && (*id - first) % step == 0 &&
+                      (*id - first) / step < *count;
+    if (!even) {
+        throw InputError(fmt::format(
+            "task {} of a Slurm array of {} tasks from {} to {} is not a shard, since these are "
+            "not evenly spaced; submit --array=1-N, or say which shard it is with --shard I/N",
+            *id, *count, first, last));
+    }
+    return Shard{static_cast<int>((*id - first) / step), static_cast<int>(*count)};
+}
 
 struct RenderArguments {
     MissionOptions mission;
@@ -42,13 +82,12 @@ struct RenderArguments {
 };
 
 /// The shard that the command line names, else the task of a Slurm array, else all of the mission.
-void take_shard(const RenderArguments& arguments, RenderOptions& options) {
-    std::optional<Shard> shard = arguments.shard;
-    if (!shard && (shard = shard_of_slurm())) {
+void take_shard(const std::optional<Shard>& given, RenderOptions& options) {
+    const std::optional<Shard> shard = given ? given : shard_of_slurm();
+    if (!shard) return;
+    if (!given)
         spdlog::info("--shard {}/{}, by SLURM_ARRAY_TASK_ID; --shard 1/1 renders all of it",
                      shard->index + 1, shard->count);
-    }
-    if (!shard) return;
     options.shard = shard->index;
     options.shards = shard->count;
 }
@@ -82,16 +121,14 @@ void print_table(const RenderSummary& summary) {
 
 void print_json(const RenderSummary& summary, const Mission& mission,
                 std::span<const Warning> warnings) {
-    Json thread_seconds;
-    for (const auto& [name, seconds] : stage_seconds(summary))
-        thread_seconds[name] = seconds;
     Json json;
     json["pings"] = summary.pings;
     json["skipped"] = summary.skipped;
     json["complete"] = summary.complete;
     json["seconds"] = summary.seconds;
     json["pings_per_s"] = pings_per_s(summary);
-    json["thread_seconds"] = std::move(thread_seconds);
+    for (const auto& [name, seconds] : stage_seconds(summary))
+        json["thread_seconds"][name] = seconds;
     json["samples"] = summary.counts.samples;
     json["echoes"] = summary.counts.echoes;
     json["clipped_pixels"] = summary.clipped_pixels;
@@ -104,7 +141,7 @@ void print_json(const RenderSummary& summary, const Mission& mission,
     json["warnings"] = Json::array();
     for (const Warning& warning : warnings)
         json["warnings"].push_back(sentence(warning));
-    fmt::print("{}", json_line(json));
+    fmt::print("{}\n", json_line(json));
 }
 
 /// Logs the counts of dropped echoes and the reasons. A usual run has many; warnings report those
@@ -125,9 +162,9 @@ std::filesystem::path picture_of(const Mission& mission) {
     for (const SonarConfig& sonar : mission.sensors) {
         for (const char* name :
              {"fan/000000.png", "waterfall_view.png", "echogram_view.png", "scan_0000.png"}) {
-            if (std::filesystem::exists(folder / sonar.name / name))
-                return (folder / sonar.name / name)
-                    .lexically_proximate(std::filesystem::current_path());
+            const std::filesystem::path picture = folder / sonar.name / name;
+            if (std::filesystem::exists(picture))
+                return picture.lexically_proximate(std::filesystem::current_path());
         }
     }
     return {};
@@ -158,7 +195,6 @@ void refuse_overwriting_mission(const std::filesystem::path& file, const Mission
 struct Outcome {
     RenderSummary summary;
     std::vector<Warning> before;  ///< logged before the first ping
-    std::vector<Warning> after;
 };
 
 /// Logs the warnings that need no ping, and the size of the mission.
@@ -185,9 +221,7 @@ Outcome render_one(const RenderArguments& arguments, const Mission& mission,
         mission, assembly, arguments.render,
         [&](const RenderSummary& so_far, std::uint64_t total) { line.show(so_far.pings, total); },
         stop);
-    out.after = out.summary.warnings;
-    for (Warning& warning : image_warnings(mission, assembly, out.summary.sensors))
-        out.after.push_back(std::move(warning));
+    append(out.summary.warnings, image_warnings(mission, assembly, out.summary.sensors));
     return out;
 }
 
@@ -199,27 +233,25 @@ Outcome render_variants(const RenderArguments& arguments, const Mission& mission
     // Warnings about the first scene hold for most others, so they are not repeated.
     bool first = true;
     const auto begin = [&](const Mission& variant, const Assembly& assembly) {
-        if (!std::exchange(first, false)) return;
-        for (Warning& warning : warn_before(variant, assembly))
-            out.before.push_back(std::move(warning));
+        if (std::exchange(first, false)) out.before = warn_before(variant, assembly);
     };
     out.summary = run_variants(mission, variants, arguments.render, begin, line.callback(), stop);
-    out.after = out.summary.warnings;
     return out;
 }
 
-int render(RenderArguments arguments) {
-    start_logging(arguments.log);
+int render(const RenderArguments& given) {
+    RenderArguments arguments = given;
     arguments.render.files = !arguments.no_files;
-    take_shard(arguments, arguments.render);
+    take_shard(arguments.shard, arguments.render);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) refuse_overwriting_mission(arguments.mission.file, mission);
     const Variants variants = load_variants(arguments.mission, mission);
-    auto [summary, warnings, after] = variants.size() == 0
-                                          ? render_one(arguments, mission, stop)
-                                          : render_variants(arguments, mission, variants, stop);
+    auto [summary, warnings] = variants.size() == 0
+                                   ? render_one(arguments, mission, stop)
+                                   : render_variants(arguments, mission, variants, stop);
+    std::vector<Warning>& after = summary.warnings;
     if (summary.unlocked)
         after.insert(after.begin(),
                      make_warning(WarningCode::no_locks, mission.output.folder.string()));
@@ -227,7 +259,7 @@ int render(RenderArguments arguments) {
     constexpr std::size_t most = 20;  // warnings of all variants that are printed
     log_warnings(std::span(after).first(std::min(most, after.size())));
     if (after.size() > most) spdlog::warn("and {} warnings more like these", after.size() - most);
-    warnings.insert(warnings.end(), after.begin(), after.end());
+    append(warnings, after);
     if (arguments.log.json) {
         print_json(summary, mission, warnings);
     } else if (arguments.log.prints_result()) {
@@ -241,31 +273,31 @@ int render(RenderArguments arguments) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "render", "Renders a mission into its dataset, or resumes an interrupted one", "Make",
-        {"sonarsim render mission.yaml",
-         "sonarsim render mission.yaml --out out/far --set sensors.fls.range_max_m=20",
-         "sonarsim render mission.yaml --shard 2/8 --out out/part2"});
-    auto arguments = std::make_shared<RenderArguments>();
-    add_mission_options(command, arguments->mission);
-    add_threads_option(command, arguments->render.threads);
+    auto [command, arguments] =
+        add_command(app, exit_code, "render",
+                    "Renders a mission into its dataset, or resumes an interrupted one", "Make",
+                    {"sonarsim render mission.yaml",
+                     "sonarsim render mission.yaml --out out/far --set sensors.fls.range_max_m=20",
+                     "sonarsim render mission.yaml --shard 2/8 --out out/part2"},
+                    render);
+    add_mission_options(command, arguments.mission);
+    add_threads_option(command, arguments.render.threads);
     command
         .add_option_function<std::string>(
-            "--shard", [arguments](const auto& text) { arguments->shard = parse_shard(text); },
+            "--shard", [&shard = arguments.shard](const auto& text) { shard = parse_shard(text); },
             "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
         ->type_name("I/N");
-    command.add_flag("--overwrite", arguments->render.overwrite,
+    command.add_flag("--overwrite", arguments.render.overwrite,
                      "Replaces another dataset in the output folder: removes the folders of its "
                      "sensors and the files of the dataset next to them, and keeps all others");
     command
-        .add_option("--checkpoint", arguments->render.checkpoint_s,
+        .add_option("--checkpoint", arguments.render.checkpoint_s,
                     "Seconds between checkpoints, the most that a power cut costs (default: 5)")
         ->check(CLI::Range(0.01, 3600.0))
         ->type_name("S");
-    command.add_flag("--no-files", arguments->no_files, "Writes nothing, to measure the speed");
-    command.add_flag("--strict", arguments->strict, "Exit code 3 where there was a warning");
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = render(*arguments); });
+    command.add_flag("--no-files", arguments.no_files, "Writes nothing, to measure the speed");
+    command.add_flag("--strict", arguments.strict, "Exit code 3 where there was a warning");
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

@@ -4,13 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <memory>
 #include <set>
 
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "logging.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
 #include "run/checks/measured_error.h"
@@ -59,7 +57,6 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
 }
 
 int report(const ReportArguments& arguments) {
-    start_logging(arguments.log);
     const Mission whole = load(arguments.mission);
     const Mission mission = without_water_echoes(whole);
     if (mission.variants > 0) {
@@ -102,34 +99,33 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "report", "Measures what each engine costs this mission, in time and in error",
-        "Check", {"sonarsim report mission.yaml --quick --out out/report"});
-    auto arguments = std::make_shared<ReportArguments>();
-    add_mission_options(command, arguments->mission);
+    auto [command, arguments] =
+        add_command(app, exit_code, "report",
+                    "Measures what each engine costs this mission, in time and in error", "Check",
+                    {"sonarsim report mission.yaml --quick --out out/report"}, report);
+    add_mission_options(command, arguments.mission);
     command
-        .add_option("--json", arguments->json_file,
+        .add_option("--json", arguments.json_file,
                     "Writes the report to this file; with --out, JSON and Markdown to a folder")
         ->type_name("FILE");
-    command.add_flag("--quick", arguments->quick, "Fewer settings, poses and rounds");
-    command.add_option("--poses", arguments->report.poses, "Poses, spread along the trajectory")
+    command.add_flag("--quick", arguments.quick, "Fewer settings, poses and rounds");
+    command.add_option("--poses", arguments.report.poses, "Poses, spread along the trajectory")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command
-        .add_option("--reference-rays", arguments->report.reference_rays,
+        .add_option("--reference-rays", arguments.report.reference_rays,
                     "Largest number of rays per image of the reference")
         ->check(CLI::Range(std::uint64_t{1'000'000}, std::uint64_t{1'000'000'000'000}))
         ->capture_default_str();
     command
-        .add_option("--engines", arguments->engines,
+        .add_option("--engines", arguments.engines,
                     "Engines to measure, separated by commas: rays, strips, octree, auto")
         ->delimiter(',')
         ->check(CLI::IsMember({"rays", "strips", "octree", "auto"}))
         ->type_name("NAMES");
-    add_threads_option(command, arguments->report.threads,
+    add_threads_option(command, arguments.report.threads,
                        "Threads for pings/s (default: one per core)");
-    add_log_options(command, arguments->log, LogResult::text);
-    command.callback([arguments, &exit_code] { exit_code = report(*arguments); });
+    add_log_options(command, arguments.log, LogResult::text);
 }
 
 }  // namespace sonarsim

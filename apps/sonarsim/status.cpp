@@ -2,12 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "commands.h"
-#include "logging.h"
 
 namespace sonarsim {
 
@@ -24,11 +21,11 @@ const char* state_of(const JobStatus& status) {
 }
 
 void print_json(const JobStatus& status) {
-    nlohmann::ordered_json json = {{"mission", status.mission}, {"state", state_of(status)}};
+    Json json = {{"mission", status.mission}, {"state", state_of(status)}};
     if (status.variants > 0)
         json["variants"] = {{"done", status.complete_variants}, {"all", status.variants}};
     json["pings"] = {{"done", status.pings}, {"all", status.all_pings}};
-    fmt::print("{}", json_line(json));
+    fmt::print("{}\n", json_line(json));
 }
 
 void print_text(const JobStatus& status) {
@@ -46,7 +43,6 @@ void print_text(const JobStatus& status) {
 }
 
 int status(const StatusArguments& arguments) {
-    start_logging(arguments.log);
     const JobStatus found = read_status(arguments.folders);
     arguments.log.json ? print_json(found) : print_text(found);
     return exit_done;
@@ -55,15 +51,14 @@ int status(const StatusArguments& arguments) {
 }  // namespace
 
 void add_status(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(app, "status", "Prints the progress of a job", "Check",
-                                    {"sonarsim status out/part1 out/part2"});
-    auto arguments = std::make_shared<StatusArguments>();
+    auto [command, arguments] =
+        add_command(app, exit_code, "status", "Prints the progress of a job", "Check",
+                    {"sonarsim status out/part1 out/part2"}, status);
     command
-        .add_option("folders", arguments->folders,
+        .add_option("folders", arguments.folders,
                     "The folder of the dataset, or those of all its shards")
         ->required();
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = status(*arguments); });
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

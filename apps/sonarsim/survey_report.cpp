@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -18,8 +17,6 @@
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Instances with their share of the visible surface, the largest first.
 std::vector<std::pair<std::string, double>> visible_most(const SonarSurvey& found,
@@ -156,8 +153,7 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
     if (const auto count = std::ranges::count_if(measured, &PingError::by_finer_image); count > 0)
         text += fmt::format("; {} by the change to a finer goal", count);
     if (unknown > 0.0)
-        text += fmt::format("; in {} more it {}", error->pings.size() - measured.size(),
-                            limit);
+        text += fmt::format("; in {} more it {}", error->pings.size() - measured.size(), limit);
     return result_line("", text);
 }
 

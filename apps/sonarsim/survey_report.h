@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "output/dataset/json.h"
 #include "run/checks/measured_error.h"
 #include "run/checks/survey.h"
 #include "run/checks/warning.h"
@@ -19,8 +19,7 @@ std::string readings_text(const SceneConfig& scene);
 std::string survey_text(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects);
 
 /// A sonar's survey as JSON.
-nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene,
-                                   const SceneObjects& objects);
+Json survey_json(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects);
 
 /// The measured error of a sonar as an indented line; "" if there is none.
 std::string error_line(const std::optional<MeasuredError>& error, const Scene& scene, double goal);
@@ -44,8 +43,8 @@ struct Estimate {
 };
 std::string estimate_text(const Estimate& estimate);
 /// Adds its numbers.
-void describe_estimate(const Estimate& estimate, nlohmann::ordered_json& json);
+void describe_estimate(const Estimate& estimate, Json& json);
 
-nlohmann::ordered_json warnings_json(std::span<const Warning> warnings);
+Json warnings_json(std::span<const Warning> warnings);
 
 }  // namespace sonarsim

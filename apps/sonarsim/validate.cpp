@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -20,7 +19,6 @@
 #include "core/machine_memory.h"
 #include "core/text.h"
 #include "input/mission/variants.h"
-#include "logging.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
 #include "run/checks/measured_error.h"
@@ -47,14 +45,26 @@ struct ValidateArguments {
 /// The names of FolderState.
 constexpr std::array state_names{"new", "unfinished", "complete"};
 
+/// The images that a sensor leaves. A ping counts once, whatever files show it.
+std::size_t count_images(const SensorLayout& sensor) {
+    std::size_t images = 0;
+    bool has_pictures = false;
+    for (const Writer& writer : sensor.writers) {
+        const auto* file = std::get_if<PingFile>(&writer.per_ping);
+        has_pictures = has_pictures || (file != nullptr && !file->title.empty());
+        images += std::ranges::count_if(
+            writer.products, [](const std::string& product) { return product.ends_with(".png"); });
+    }
+    return has_pictures ? images + sensor.pings : images;
+}
+
 /// Everything that is printed about a mission. The lists are by sonar.
 struct Findings {
     const Mission& mission;
     const Assembly& assembly;
+    Layout layout;
     const char* state;
-    std::vector<std::size_t> pings;
-    std::size_t images = 0;
-    double common_bytes = 0.0;  ///< files of no single ping
+    double common_bytes;  ///< files of no single ping
     double set_up_s = 0.0;
     std::vector<PingCost> costs = {};
     std::vector<SonarSurvey> sonars = {};
@@ -63,11 +73,11 @@ struct Findings {
 
     /// The size of the dataset if its pings cost `costs`.
     Estimate estimate() const {
-        Estimate out{.images = images, .set_up_s = set_up_s};
-        out.bytes = common_bytes;
-        for (std::size_t i = 0; i < pings.size(); ++i) {
-            const auto count = static_cast<double>(pings[i]);
-            out.pings += pings[i];
+        Estimate out{.set_up_s = set_up_s, .bytes = common_bytes};
+        for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+            const auto count = static_cast<double>(layout.sensors[i].pings);
+            out.images += count_images(layout.sensors[i]);
+            out.pings += layout.sensors[i].pings;
             out.hours += count * costs[i].seconds / 3600.0 / tbb::info::default_concurrency();
             out.bytes += count * costs[i].bytes;
         }
@@ -77,27 +87,26 @@ struct Findings {
 
 /// The findings in all variants of a mission.
 struct VariantFindings {
-    std::size_t variants = 0;
     Estimate estimate;  ///< sum, if all cost what the first costs
     std::string first;  ///< text about the first
     std::vector<Warning> warnings;
 };
 
-nlohmann::ordered_json json_of(const Findings& f) {
-    nlohmann::ordered_json json{{"mission", f.mission.name},
-                                {"read_as", readings_of(f.mission.scene)},
-                                {"triangles", f.assembly.scene.triangles.size()},
-                                {"poses", f.assembly.trajectory.size()},
-                                {"folder", f.mission.output.folder.string()},
-                                {"folder_state", f.state},
-                                {"warnings", warnings_json(f.warnings)}};
-    for (std::size_t i = 0; i < f.pings.size(); ++i) {
-        nlohmann::ordered_json& sensor = json["sensors"][f.assembly.sonars[i].config.name];
-        sensor["pings"] = f.pings[i];
+Json json_of(const Findings& f) {
+    Json json{{"mission", f.mission.name},
+              {"read_as", readings_of(f.mission.scene)},
+              {"triangles", f.assembly.scene.triangles.size()},
+              {"poses", f.assembly.trajectory.size()},
+              {"folder", f.mission.output.folder.string()},
+              {"folder_state", f.state},
+              {"warnings", warnings_json(f.warnings)}};
+    for (std::size_t i = 0; i < f.layout.sensors.size(); ++i) {
+        Json& sensor = json["sensors"][f.layout.sensors[i].name];
+        sensor["pings"] = f.layout.sensors[i].pings;
         sensor["seconds_per_ping"] = f.costs[i].seconds;
         sensor["bytes_per_ping"] = f.costs[i].bytes;
         sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene, f.assembly.objects);
-        sensor["measured_error"] = f.errors[i] ? json_of(*f.errors[i]) : nlohmann::ordered_json();
+        sensor["measured_error"] = json_of(f.errors[i]);
     }
     describe_estimate(f.estimate(), json);
     return json;
@@ -129,11 +138,11 @@ std::string text_of_parts(const Findings& f) {
     }
     if (!scene.bodies.empty())
         text += result_line("moving", fmt::format("{} objects", scene.bodies.size()));
-    for (std::size_t i = 0; i < f.pings.size(); ++i) {
+    for (std::size_t i = 0; i < f.layout.sensors.size(); ++i) {
         const Sonar& sonar = f.assembly.sonars[i];
         text += result_line(sonar.config.name,
                             fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
-                                        sonar.settings.view.beams, f.pings[i]));
+                                        sonar.settings.view.beams, f.layout.sensors[i].pings));
         text += survey_text(f.sonars[i], scene, f.assembly.objects);
         text += error_line(f.errors[i], scene, f.mission.accuracy.relative_l1);
     }
@@ -143,19 +152,6 @@ std::string text_of_parts(const Findings& f) {
 std::string text_of(const Findings& f) {
     return result_line("mission", f.mission.name) + text_of_parts(f) + estimate_text(f.estimate()) +
            result_line("folder", fmt::format("{} ({})", f.mission.output.folder.string(), f.state));
-}
-
-/// The images that a sensor leaves. A ping counts once, whatever files show it.
-std::size_t count_images(const Writers& writers, std::size_t pings) {
-    std::size_t images = 0;
-    bool has_pictures = false;
-    for (const auto& writer : writers) {
-        const auto* file = std::get_if<PingFile>(&writer.per_ping);
-        has_pictures = has_pictures || (file != nullptr && !file->title.empty());
-        images += std::ranges::count_if(
-            writer.products, [](const std::string& product) { return product.ends_with(".png"); });
-    }
-    return has_pictures ? images + pings : images;
 }
 
 /// InputError for a folder in which nothing can be written.
@@ -170,25 +166,20 @@ void require_writable(std::filesystem::path folder) {
 }
 
 /// Checks one mission against its folder.
-Findings check_folder(const Mission& mission, const Assembly& assembly,
-                      const std::vector<Writers>& writers, bool overwrite) {
-    const std::size_t poses = assembly.trajectory.size();
-    const Layout layout = make_layout(mission, writers, poses);
+Findings check_folder(const Mission& mission, const Assembly& assembly, bool overwrite) {
+    Layout layout =
+        make_layout(mission, make_writers(mission, assembly), assembly.trajectory.size());
     protect_inputs(layout, mission);
-    const CommonFiles common = make_common_files(mission, assembly, layout, writers);
+    const CommonFiles common = make_common_files(mission, assembly, layout);
     const FolderState state =
         inspect_folder(layout.folder, common.description, common.mission, overwrite);
     require_writable(layout.folder);
-    Findings findings{mission, assembly, state_names[static_cast<std::size_t>(state)],
-                      count_pings(mission, poses)};
-    findings.common_bytes = bytes_of(common);
-    for (std::size_t i = 0; i < writers.size(); ++i)
-        findings.images += count_images(writers[i], findings.pings[i]);
-    return findings;
+    return {mission, assembly, std::move(layout), state_names[static_cast<std::size_t>(state)],
+            bytes_of(common)};
 }
 
 /// Casts rays: surveys the mission with its sonars, finds warnings and measures the cost of pings.
-void survey_mission(const std::vector<Writers>& writers, Findings& findings) {
+void survey_mission(Findings& findings) {
     const Mission& mission = findings.mission;
     const Assembly& assembly = findings.assembly;
     const double available = std::max(0.0, machine_memory() - resident_memory());
@@ -196,8 +187,7 @@ void survey_mission(const std::vector<Writers>& writers, Findings& findings) {
         memory_warnings(assembly.sonars, tbb::info::default_concurrency(), available);
     const std::unique_ptr<VisibilityEngine> rays = make_engine(assembly.scene, {});
     findings.sonars = survey(mission, assembly, *rays);
-    for (Warning& warning : find_warnings(mission, assembly, findings.sonars, *rays))
-        findings.warnings.push_back(std::move(warning));
+    append(findings.warnings, find_warnings(mission, assembly, findings.sonars, *rays));
     // If not even one ping has room in memory, none is made to measure its time.
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (exceeds_memory(assembly.sonars, available)) {
@@ -205,10 +195,9 @@ void survey_mission(const std::vector<Writers>& writers, Findings& findings) {
         findings.errors.resize(assembly.sonars.size());
         return;
     }
-    findings.costs = measure_pings(mission, assembly, writers, findings.set_up_s);
+    findings.costs = measure_pings(mission, assembly, findings.layout, findings.set_up_s);
     findings.errors = measure_errors(mission, assembly, *make_engine(mission, assembly));
-    for (Warning& warning : error_warnings(mission, findings.errors))
-        findings.warnings.push_back(std::move(warning));
+    append(findings.warnings, error_warnings(mission, findings.errors));
 }
 
 /// The variant as it is assembled to be checked. The white of a new dataset's pictures need not be
@@ -235,23 +224,22 @@ VariantFindings check_variants(const Variants& variants, const ValidateArguments
     ProgressLine line(arguments.log, "variants");
     for (int i = 0; i < variants.size(); ++i) {
         Stopwatch watch;
-        const bool is_first = all.variants++ == 0;
+        const bool is_first = i == 0;
         const Mission variant = variants[i];
         const Mission checked = is_first ? variant : checked_variant(variant);
         const Assembly assembly = assemble(checked, models);
         models.announce = nullptr;  // the other variants take as long
         const double assemble_s = watch.lap();
-        const std::vector<Writers> writers = make_writers(checked, assembly);
-        Findings findings = check_folder(checked, assembly, writers, arguments.overwrite);
+        Findings findings = check_folder(checked, assembly, arguments.overwrite);
         if (is_first) {
             findings.set_up_s = assemble_s;
-            survey_mission(writers, findings);
+            survey_mission(findings);
             all.warnings = findings.warnings;
             all.first = text_of_parts(findings);
             set_up_s = findings.set_up_s;
             costs = findings.costs;
         }
-        line.show(all.variants, variants.size());
+        line.show(i + 1, variants.size());
         findings.set_up_s = set_up_s;
         findings.costs = costs;
         all.estimate += findings.estimate();
@@ -259,32 +247,33 @@ VariantFindings check_variants(const Variants& variants, const ValidateArguments
     return all;
 }
 
-void print_variants(const Mission& mission, const VariantFindings& all, bool as_json) {
+void print_variants(const Mission& mission, int variants, const VariantFindings& all,
+                    bool as_json) {
     if (as_json) {
-        nlohmann::ordered_json json{{"mission", mission.name},
-                                    {"variants", all.variants},
-                                    {"folder", mission.output.folder.string()},
-                                    {"warnings", warnings_json(all.warnings)}};
+        Json json{{"mission", mission.name},
+                  {"variants", variants},
+                  {"folder", mission.output.folder.string()},
+                  {"warnings", warnings_json(all.warnings)}};
         describe_estimate(all.estimate, json);
-        fmt::print("{}", json_line(json));
+        fmt::print("{}\n", json_line(json));
         return;
     }
     fmt::print("{}{}{}{}{}{}{}", result_line("mission", mission.name),
-               result_line("variants", std::to_string(all.variants)),
+               result_line("variants", std::to_string(variants)),
                result_line("surveyed", variant_folder(0) + ":"), all.first,
-               result_line("together", fmt::format("{} variants:", all.variants)),
+               result_line("together", fmt::format("{} variants:", variants)),
                estimate_text(all.estimate), result_line("folder", mission.output.folder.string()));
 }
 
 int validate(const ValidateArguments& arguments) {
-    start_logging(arguments.log);
     const Mission mission = load(arguments.mission);
     const Variants variants = load_variants(arguments.mission, mission);
     if (variants.size() > 0) {
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
         const VariantFindings all = check_variants(variants, arguments);
-        if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
+        if (arguments.log.prints_result())
+            print_variants(mission, variants.size(), all, arguments.log.json);
         return log_warnings(all.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
     }
     Stopwatch watch;
@@ -292,31 +281,30 @@ int validate(const ValidateArguments& arguments) {
     models.announce = announce;
     const Assembly assembly = assemble(mission, models);
     const double assemble_s = watch.lap();
-    const std::vector<Writers> writers = make_writers(mission, assembly);
-    Findings findings = check_folder(mission, assembly, writers, arguments.overwrite);
+    Findings findings = check_folder(mission, assembly, arguments.overwrite);
     findings.set_up_s = assemble_s;
-    survey_mission(writers, findings);
+    survey_mission(findings);
     if (arguments.log.prints_result())
-        fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
+        fmt::print("{}",
+                   arguments.log.json ? json_line(json_of(findings)) + "\n" : text_of(findings));
     return log_warnings(findings.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
 }
 
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    CLI::App& command =
-        add_command(app, "validate",
+    auto [command, arguments] =
+        add_command(app, exit_code, "validate",
                     "Checks a mission and all it names, and looks at it "
                     "through its sonars; leaves no files",
                     "Check",
                     {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
-                     "sonarsim validate mission.yaml --strict"});
-    auto arguments = std::make_shared<ValidateArguments>();
-    add_mission_options(command, arguments->mission);
-    command.add_flag("--overwrite", arguments->overwrite, "Allow any output folder, as in render");
-    command.add_flag("--strict", arguments->strict, "Exit code 3 where there is a warning");
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = validate(*arguments); });
+                     "sonarsim validate mission.yaml --strict"},
+                    validate);
+    add_mission_options(command, arguments.mission);
+    command.add_flag("--overwrite", arguments.overwrite, "Allow any output folder, as in render");
+    command.add_flag("--strict", arguments.strict, "Exit code 3 where there is a warning");
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

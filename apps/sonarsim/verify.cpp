@@ -3,19 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "logging.h"
 #include "mission_options.h"
 #include "signals.h"
 
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct VerifyArguments {
     std::filesystem::path folder;
@@ -29,11 +24,10 @@ void print_result(const DatasetCheck& check) {
                        {"bytes", check.bytes},
                        {"errors", check.errors},
                        {"unknown_files", check.unknown_files}};
-    fmt::print("{}", json_line(json));
+    fmt::print("{}\n", json_line(json));
 }
 
 int verify(const VerifyArguments& arguments) {
-    start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
     const std::filesystem::path& folder = arguments.folder;
@@ -59,14 +53,13 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void add_verify(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "verify", "Checks that a dataset is whole: every file is there and has its bytes",
-        "Check", {"sonarsim verify out/hull"});
-    auto arguments = std::make_shared<VerifyArguments>();
-    command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
-    add_threads_option(command, arguments->threads);
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = verify(*arguments); });
+    auto [command, arguments] =
+        add_command(app, exit_code, "verify",
+                    "Checks that a dataset is whole: every file is there and has its bytes",
+                    "Check", {"sonarsim verify out/hull"}, verify);
+    command.add_option("folder", arguments.folder, "The folder of the dataset")->required();
+    add_threads_option(command, arguments.threads);
+    add_log_options(command, arguments.log);
 }
 
 }  // namespace sonarsim

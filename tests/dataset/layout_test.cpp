@@ -41,9 +41,8 @@ TEST_CASE("layout: files bear the pose's index in six digits, or as many as it t
 TEST_CASE("metadata: the apex of a fan, and the numbers of a ping") {
     const Mission mission = small_mission("out");
     const Assembly assembly = small_assembly(mission, 7);
-    const std::vector<Writers> writers = make_writers(mission, assembly);
-    const Json json = Json::parse(
-        json_text(describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
+    const Layout layout = make_layout(mission, make_writers(mission, assembly), 7);
+    const Json json = Json::parse(json_text(describe_dataset(mission, assembly, layout)));
     CHECK(json.at("complete") == false);
     CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
     // The apex of a 60 degree fan: the middle of the lower edge.

@@ -1,7 +1,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "job/small_job.h"
-#include "output/dataset/averaged_rows.h"
+#include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
@@ -15,7 +15,6 @@ std::optional<Writer> make_strip_writer(const WriterContext& context);
 using namespace sonarsim;
 using namespace sonarsim::test;
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace {
 

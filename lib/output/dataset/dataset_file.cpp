@@ -13,8 +13,6 @@ namespace sonarsim {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* cure = "; copy the dataset again, or render it again";
 
 /// InputError with what is wrong with a dataset.json.

@@ -2,11 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "output/dataset/json.h"
 
 namespace sonarsim {
 
@@ -22,8 +23,8 @@ struct DescribedSensor {
 };
 
 /// A dataset.json.
-struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving JSON throws nothing
-    nlohmann::ordered_json json;  ///< all of it
+struct DatasetFile {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
+    Json json;        ///< all of it
     bool complete = false;
     std::string mission;
     std::uint64_t poses = 0;
@@ -33,16 +34,16 @@ struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving J
 
 /// The JSON of a file of a dataset. InputError when it cannot be read, is longer than a quarter of
 /// a gigabyte, is not JSON or is nested more than 64 deep.
-nlohmann::ordered_json read_json(const std::filesystem::path& path);
+Json read_json(const std::filesystem::path& path);
 
 /// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
 /// InputError when it cannot be read.
-std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
+std::optional<Json> read_description(const std::filesystem::path& folder);
 
 /// The one reader of dataset.json; `file` is for the messages. InputError when it is of another
 /// version of the format, when a key is missing or of another type, and when a path is not that of
 /// a file in the folder of its sensor.
-DatasetFile parse_description(nlohmann::ordered_json json, const std::string& file);
+DatasetFile parse_description(Json json, const std::string& file);
 
 /// The dataset.json of a folder that must hold a dataset: else InputError.
 DatasetFile require_dataset(const std::filesystem::path& folder);
@@ -52,8 +53,7 @@ inline constexpr const char* another_mission = "of another mission";
 /// The difference between two descriptions as the end of a sentence that begins with "a dataset":
 /// "of another mission". Empty if both are the same dataset, complete or not. Their keys need not
 /// be checked.
-std::string difference_between(const nlohmann::ordered_json& found,
-                               const nlohmann::ordered_json& expected);
+std::string difference_between(const Json& found, const Json& expected);
 
 /// "fls/polar/%06d.npy" with the number of a ping's pose in it.
 std::string numbered(const std::string& pattern, std::uint64_t number);

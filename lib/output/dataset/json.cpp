@@ -2,8 +2,6 @@
 
 namespace sonarsim {
 
-using Json = nlohmann::ordered_json;
-
 Json describe_box(const PixelBox& box) {
     return {{"x", {box.left, box.right}}, {"y", {box.top, box.bottom}}};
 }
@@ -14,10 +12,14 @@ Json describe_pose(const Pose& pose) {
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-// A mission's name may be any bytes; what is no UTF-8 becomes U+FFFD.
+// The name of a mission or a file may be any bytes; what is no UTF-8 becomes U+FFFD.
 
 std::string json_text(const Json& json) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string json_line(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string coco_counts(std::span<const std::uint32_t> runs) {
@@ -39,14 +41,11 @@ std::string coco_counts(std::span<const std::uint32_t> runs) {
 }
 
 std::string objects_text(const Json& head, const std::vector<Json>& objects) {
-    const auto line = [](const Json& json) {
-        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    };
-    std::string text = line(head);
+    std::string text = json_line(head);
     text.back() = ',';
     text += "\"objects\":[";
     for (std::size_t k = 0; k < objects.size(); ++k)
-        text += (k == 0 ? "\n" : ",\n") + line(objects[k]);
+        text += (k == 0 ? "\n" : ",\n") + json_line(objects[k]);
     return text + "\n]}\n";
 }
 

@@ -14,26 +14,31 @@
 
 namespace sonarsim {
 
+/// Keys keep the order in which they are added.
+using Json = nlohmann::ordered_json;
+
 template <class Vector>
-nlohmann::ordered_json describe_vector(const Vector& v) {
+Json describe_vector(const Vector& v) {
     return {v.x(), v.y(), v.z()};
 }
 
 /// Null for an empty box.
 template <class Scalar>
-nlohmann::ordered_json describe_box(const Eigen::AlignedBox<Scalar, 3>& box) {
+Json describe_box(const Eigen::AlignedBox<Scalar, 3>& box) {
     if (box.isEmpty()) return nullptr;
     return {{"min", describe_vector(box.min())}, {"max", describe_vector(box.max())}};
 }
 
 /// A box of pixels.
-nlohmann::ordered_json describe_box(const PixelBox& box);
+Json describe_box(const PixelBox& box);
 
 /// Position in metres; quaternion as x, y, z, w.
-nlohmann::ordered_json describe_pose(const Pose& pose);
+Json describe_pose(const Pose& pose);
 
 /// JSON as it is written: indented, with a line feed at the end.
-std::string json_text(const nlohmann::ordered_json& json);
+std::string json_text(const Json& json);
+/// JSON on one line, without a line feed.
+std::string json_line(const Json& json);
 
 /// Encodes the runs of a mask as the text that COCO's tools call compressed RLE. Each number is
 /// written in groups of five bits, the lowest first, as characters from '0' on; the sixth bit says
@@ -42,7 +47,6 @@ std::string json_text(const nlohmann::ordered_json& json);
 std::string coco_counts(std::span<const std::uint32_t> runs);
 
 /// The file of the objects in a picture, a line each; `head` says which picture it is.
-std::string objects_text(const nlohmann::ordered_json& head,
-                         const std::vector<nlohmann::ordered_json>& objects);
+std::string objects_text(const Json& head, const std::vector<Json>& objects);
 
 }  // namespace sonarsim

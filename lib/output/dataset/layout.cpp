@@ -56,31 +56,24 @@ std::vector<std::filesystem::path> Layout::folders() const {
     }
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         all.push_back(sensor_folder(i));
-        for (const auto& part : sensors[i].per_ping) {
-            if (const auto* file = std::get_if<PingFile>(&part))
+        for (const Writer& writer : sensors[i].writers) {
+            if (const auto* file = std::get_if<PingFile>(&writer.per_ping))
                 all.push_back(sensor_folder(i) / file->name);
         }
     }
     return all;
 }
 
-Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses) {
+Layout make_layout(const Mission& mission, std::vector<Writers> writers, std::size_t poses) {
     const std::vector<std::size_t> pings = count_pings(mission, poses);
     Layout layout;
     layout.folder = mission.output.folder;
     for (std::size_t i = 0; i < writers.size(); ++i) {
         const SonarConfig& config = mission.sensors[i];
-        SensorLayout sensor{.name = config.name,
-                            .every = static_cast<std::uint32_t>(config.every),
-                            .pings = pings[i],
-                            .per_ping = {},
-                            .products = {}};
-        for (const Writer& writer : writers[i]) {
-            sensor.per_ping.push_back(writer.per_ping);
-            sensor.products.insert(sensor.products.end(), writer.products.begin(),
-                                   writer.products.end());
-        }
-        layout.sensors.push_back(std::move(sensor));
+        layout.sensors.push_back({.name = config.name,
+                                  .every = static_cast<std::uint32_t>(config.every),
+                                  .pings = pings[i],
+                                  .writers = std::move(writers[i])});
     }
     if (mission.scene.seabed) layout.products = seabed_file_names();
     if (mission.vehicle.navigation != NavigationConfig{})

@@ -37,8 +37,7 @@ struct SensorLayout {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
     std::size_t pings = 0;
-    std::vector<PingOutput> per_ping;  ///< outputs of its writers, in their order
-    std::vector<std::string> products;
+    Writers writers;
 };
 
 /// The files of a dataset.
@@ -60,7 +59,8 @@ struct Layout {
     std::vector<std::filesystem::path> folders() const;
 };
 
-Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses);
+/// `writers` by sensor.
+Layout make_layout(const Mission& mission, std::vector<Writers> writers, std::size_t poses);
 
 /// Every ping of a mission, in order.
 std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);

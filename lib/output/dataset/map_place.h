@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/file.h"
 #include "output/dataset/json.h"
@@ -23,7 +22,7 @@ inline Eigen::Vector2d map_origin(const Mission& mission) {
 /// is one, else in those of the world.
 inline void write_map(const WriterContext& context, const std::filesystem::path& folder,
                       const std::string& name, const Bathymetry& map, std::vector<float> values,
-                      nlohmann::ordered_json head, const nlohmann::ordered_json& tail) {
+                      Json head, const Json& tail) {
     // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
     if (values.empty()) values.push_back(std::nanf(""));
     const Eigen::Vector2d origin = map_origin(context.mission);

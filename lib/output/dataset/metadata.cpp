@@ -15,8 +15,6 @@ namespace sonarsim {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// The name of an input in mission.resolved.yaml.
 std::string portable_name(const Mission& mission, const InputFile& input) {
     return input.path.lexically_proximate(home_of(mission)).string();
@@ -106,7 +104,7 @@ Json describe_annotations(const SceneObjects& objects) {
 }
 
 Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
-                     const SensorLayout& own, const Writers& writers) {
+                     const SensorLayout& own) {
     const SonarConfig& config = sonar.config;
     Json json = {{"name", config.name},
                  {"kind", name_of(config.kind)},
@@ -121,23 +119,25 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
     const std::string number = "%0" + std::to_string(layout.digits) + "d";
     Json fans = Json::array();  // first among the pictures, since operators expect them
     Json pictures = Json::array();
-    for (const auto& part : own.per_ping) {
-        if (const auto* file = std::get_if<PingFile>(&part)) {
+    for (const Writer& writer : own.writers) {
+        if (const auto* file = std::get_if<PingFile>(&writer.per_ping)) {
             describe_ping_file(*file, own, number, json);
             Json picture = describe_picture(*file, json["files"].value(file->name, Json()));
             if (!picture.is_null())
                 (file->array == PingArray::fan ? fans : pictures).push_back(std::move(picture));
         } else {
-            const auto& record = std::get<PingRecord>(part);
+            const auto& record = std::get<PingRecord>(writer.per_ping);
             (record.label.empty() ? json["records"] : json["label_records"][record.label]) =
                 describe_record(record, config.name, kind_of(config.kind).record.name);
         }
     }
     fans.insert(fans.end(), pictures.begin(), pictures.end());
     json["pictures"] = std::move(fans);
-    for (const std::string& name : own.products)
-        json["products"].push_back(config.name + "/" + name);
-    for (const Writer& writer : writers) {
+    for (const Writer& writer : own.writers) {
+        for (const std::string& name : writer.products)
+            json["products"].push_back(config.name + "/" + name);
+    }
+    for (const Writer& writer : own.writers) {
         if (writer.describe) writer.describe(json);
     }
     json["range_edges_m"] = sonar.range_edges_m;
@@ -152,8 +152,7 @@ std::string hash_of(const std::vector<T>& values) {
 
 }  // namespace
 
-Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout,
-                      const std::vector<Writers>& writers) {
+Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout) {
     Json json = {{"format", dataset_format},
                  {"format_version", dataset_format_version},
                  {"program_version", build_info().version},
@@ -177,7 +176,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     json["sensors"] = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         json["sensors"].push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i],
-                                                  layout, layout.sensors[i], writers[i]));
+                                                  layout, layout.sensors[i]));
     }
     if (!layout.products.empty()) json["products"] = layout.products;
     return json;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,12 +14,11 @@ inline constexpr const char* dataset_format = "sonarsim dataset";
 inline constexpr int dataset_format_version = 3;
 
 /// dataset.json with `complete` set to false. Lengths in metres, angles in radians, edges from the
-/// lowest bin to the highest: bin i lies between edges i and i + 1. `writers` by sensor.
-nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
-                                        const Layout& layout, const std::vector<Writers>& writers);
+/// lowest bin to the highest: bin i lies between edges i and i + 1.
+Json describe_dataset(const Mission& mission, const Assembly& assembly, const Layout& layout);
 
 /// The block `build` of dataset.json: this program.
-nlohmann::ordered_json describe_build();
+Json describe_build();
 
 /// mission.resolved.yaml: the mission with paths that start at the folder of the scene file, and
 /// the SHA-256 of what it read in comments. The same wherever mission and dataset lie.

@@ -9,8 +9,6 @@
 
 namespace sonarsim {
 
-using Json = nlohmann::ordered_json;
-
 Json describe_drawn(const DrawnValues& drawn) {
     Json json = Json::object();
     for (const auto& [key, value] : drawn) {

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <nlohmann/json.hpp>
-
 #include "output/dataset/json.h"
 #include "output/format/geotiff.h"
 #include "output/format/png.h"
@@ -12,7 +10,14 @@ namespace sonarsim {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// World z of the cells: a GeoTIFF in the mission's x and y, which scene.heightmap reads.
+constexpr const char* seabed_heights_name = "seabed/heights.tif";
+/// The material of each cell, a grey PNG of 8 bits with the index of the material, and its world
+/// file.
+constexpr const char* seabed_materials_name = "seabed/materials.png";
+constexpr const char* seabed_place_name = "seabed/materials.pgw";
+/// The place of these maps, the materials, and all rocks.
+constexpr const char* seabed_list_name = "seabed/seabed.json";
 
 MapPlace place_of(const Seabed& bed) {
     const BedGrid& grid = bed.grid;

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "output/dataset/json.h"
 #include "output/dataset/labelled_ping.h"
 #include "output/dataset/record_file.h"
 #include "output/format/npy.h"
@@ -38,17 +38,16 @@ struct FinishedPing {
     const Sonar& sonar;  ///< as it was for this ping
     const TracedPing& traced;
     const Ping& ping;
-    const nlohmann::ordered_json& measured;  ///< for the metadata of the ping; null for none
-    std::uint64_t clipped_pixels;            ///< intensities above full_scale
-    const LabelledPing* labels = nullptr;    ///< null if output.labels asks for none
+    const Json& measured;                  ///< for the metadata of the ping; null for none
+    std::uint64_t clipped_pixels;          ///< intensities above full_scale
+    const LabelledPing* labels = nullptr;  ///< null if output.labels asks for none
 };
 
 /// The drawn values by key; text if a value is neither a number nor a flag.
-nlohmann::ordered_json describe_drawn(const DrawnValues& drawn);
+Json describe_drawn(const DrawnValues& drawn);
 
 /// The metadata of one ping.
-nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,
-                                     const FinishedPing& finished);
+Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished);
 
 /// The meaning of the rows and columns of a file of a ping.
 enum class PingArray {
@@ -70,9 +69,9 @@ struct PingFile {
 struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     std::string file;
     NpyFormat format;
-    nlohmann::ordered_json axes;  ///< the meaning of the indices, for dataset.json
-    std::string label = {};       ///< kind of the values: a label, "raw", or "" for the echoes
-    std::string ids = {};         ///< as in PingFile
+    Json axes;               ///< the meaning of the indices, for dataset.json
+    std::string label = {};  ///< kind of the values: a label, "raw", or "" for the echoes
+    std::string ids = {};    ///< as in PingFile
 };
 
 // Labels of records that only objects need: the shadow of the objects that are not background,
@@ -127,7 +126,7 @@ struct Writer {
     /// Makes the products in a folder, in memory that does not grow with the number of pings.
     std::function<void(const RecordFile&, const std::filesystem::path&)> write_products = {};
     /// Adds to the sensor's block in dataset.json.
-    std::function<void(nlohmann::ordered_json& sensor)> describe = {};
+    std::function<void(Json& sensor)> describe = {};
 };
 
 /// A writer of numbers: records, or files in .npy or PNG.

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
 #include "core/error.h"
 #include "output/dataset/writer.h"
-#include "output/dataset/writers/label_writers.h"
 
 namespace sonarsim {
 
@@ -22,6 +22,11 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context);
 std::optional<Writer> make_scan_writer(const WriterContext& context);
 std::optional<Writer> make_raw_records_writer(const WriterContext& context);
 std::optional<Writer> make_meta_writer(const WriterContext& context);
+
+/// The writers of all labels that `output.labels` asks for. An imaging or profiling sonar has a
+/// file per ping, NAME/NNNNNN.png or .npy with the rows and columns of the image; the others have a
+/// file of records, NAME.npy, of the shape of their echoes.
+std::vector<Writer> make_label_writers(const WriterContext& context);
 
 namespace {
 
@@ -40,6 +45,16 @@ constexpr MakeWriter formats[] = {
     make_raw_records_writer,  //
     make_meta_writer,         //
 };
+
+/// The writers of some formats and of the labels.
+Writers writers_of(std::span<const MakeWriter> makers, const WriterContext& context) {
+    Writers writers;
+    for (const MakeWriter make : makers) {
+        if (auto writer = make(context)) writers.push_back(*std::move(writer));
+    }
+    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
+    return writers;
+}
 
 /// InputError when the mission lists the label `fan` and writes no fan. `true` asks only for the
 /// labels that there can be.
@@ -66,21 +81,12 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
 }
 
 Writers make_array_writers(const WriterContext& context) {
-    Writers writers;
-    for (const MakeWriter make : {make_raw_writer, make_raw_records_writer}) {
-        if (auto writer = make(context)) writers.push_back(*std::move(writer));
-    }
-    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
-    return writers;
+    constexpr MakeWriter raw_values[] = {make_raw_writer, make_raw_records_writer};
+    return writers_of(raw_values, context);
 }
 
 Writers make_writers(const WriterContext& context) {
-    Writers writers;
-    for (const MakeWriter make : formats) {
-        if (auto writer = make(context)) writers.push_back(*std::move(writer));
-    }
-    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
-    return writers;
+    return writers_of(formats, context);
 }
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "output/dataset/sensor_summary.h"
 #include "run/checks/survey.h"
 #include "run/checks/warning.h"
 #include "simulate/assembly/assemble.h"
@@ -24,17 +25,28 @@ std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembl
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
-/// Warnings about the size of the scene and the cells of its heightmap.
-std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
-                                    std::span<const SonarSurvey> sonars);
-
-/// W09: materials that reflect no sound in this water.
-std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
-
 /// Warnings about a sonar in a survey: blind pings and the reasons, echoes below the noise,
 /// pictures that are white or black.
 std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
                                     double full_scale, const SonarSurvey& found);
+
+/// Sums over pings of one sonar.
+struct SensorSummary {
+    std::uint64_t pings = 0;
+    std::uint64_t dark_pings = 0;  ///< pings without an occupied bin
+    PingCounts counts;
+    std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, if files were written
+    float brightest = 0.0F;            ///< intensity of the brightest pixel of all
+
+    SensorSummary& operator+=(const SensorSummary& more) {
+        pings += more.pings;
+        dark_pings += more.dark_pings;
+        counts += more.counts;
+        clipped_pixels += more.clipped_pixels;
+        brightest = std::max(brightest, more.brightest);
+        return *this;
+    }
+};
 
 /// Images of a run that are black, nearly black or white, or less accurate than the goal. `sensors`
 /// are by Mission::sensors; one without pings has no warnings.

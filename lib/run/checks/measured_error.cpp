@@ -9,6 +9,7 @@
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
 #include "simulate/assembly/poses.h"
+#include "simulate/assembly/render_at_pose.h"
 #include "simulate/reference/energy_reference.h"
 #include "simulate/sonar/sonar.h"
 
@@ -43,12 +44,6 @@ double cell_m2_of(const Sonar& sonar) {
     return std::min(noise.scatterer_m * noise.scatterer_m, std::max(0.1 * bin_m2, usual_m2));
 }
 
-/// The ping of one sonar that is measured.
-struct Task {
-    std::size_t sonar;
-    std::uint32_t pose;
-};
-
 /// The change of the image, relative L1, from the mission's goal to a finer one.
 double change_when_finer(PingSettings settings, double finer, const Scene& scene,
                          const VisibilityEngine& engine, const Pose& T_world_sensor) {
@@ -63,10 +58,11 @@ double change_when_finer(PingSettings settings, double finer, const Scene& scene
 }
 
 PingError measure(const Mission& mission, const Assembly& assembly, const Caster& caster,
-                  const VisibilityEngine& engine, const Sonar& usual, std::uint32_t pose) {
+                  const VisibilityEngine& engine, const PingId& id) {
     const Scene& scene = assembly.scene;
+    const std::uint32_t pose = id.pose;
     const TimedPose& at = assembly.trajectory[pose];
-    const SonarAtPose sonar(mission, usual, pose);
+    const SonarAtPose sonar(mission, assembly.sonars[id.sensor], pose);
     const Pose T_world_sensor = sensor_pose(*sonar, at.T_world_vehicle, pose);
     std::vector<Pose> bodies = body_poses(assembly, at.t_s);
     for (Pose& body : bodies)
@@ -95,6 +91,23 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         return {pose, {}, truth.noise};
     // The noise may be all of `direct`.
     return {pose, many_paths ? with_paths : change(1.0 / 3.0), truth.noise, true};
+}
+
+/// Rounds to a thousandth of a percent; null for none.
+Json rounded(const std::optional<double>& share) {
+    constexpr double steps = 1e5;
+    return share ? Json(std::round(steps * *share) / steps) : Json();
+}
+
+/// The key that lowers the error, as the imperative of a sentence.
+std::string cure_of(const Mission& mission, double worst) {
+    if (mission.engine == EngineKind::octree) return "use engine: auto";
+    // Errors fall about as fast as the goal.
+    const double goal = mission.accuracy.relative_l1;
+    return "lower accuracy.relative_l1 to " + short_text(goal * goal / worst) +
+           (mission.engine == EngineKind::automatic
+                ? ""
+                : ", or use the engine with the least error in `sonarsim report`");
 }
 
 }  // namespace
@@ -156,59 +169,37 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const VisibilityEngine& engine) {
     std::vector<std::optional<MeasuredError>> errors(mission.sensors.size());
     if (assembly.scene.sound_profile) return errors;
-    std::vector<Task> tasks;
-    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+    std::vector<PingId> tasks;
+    for (std::uint32_t i = 0; i < assembly.sonars.size(); ++i) {
         for (const std::uint32_t pose : sample_pings(
                  assembly.trajectory.size(), assembly.sonars[i].config.every, max_measured_pings))
-            tasks.push_back({i, pose});
+            tasks.push_back({pose, i});
     }
     const Caster caster = assembly.make_caster();
     std::vector<PingError> found(tasks.size());
     in_parallel(tasks.size(), [&](std::size_t k) {
-        found[k] = measure(mission, assembly, caster, engine, assembly.sonars[tasks[k].sonar],
-                           tasks[k].pose);
+        found[k] = measure(mission, assembly, caster, engine, tasks[k]);
     });
     for (std::size_t k = 0; k < tasks.size(); ++k) {
-        std::optional<MeasuredError>& error = errors[tasks[k].sonar];
+        std::optional<MeasuredError>& error = errors[tasks[k].sensor];
         if (!error) error.emplace();
         error->pings.push_back(found[k]);
     }
     return errors;
 }
 
-namespace {
-
-/// Rounds to a thousandth of a percent; null for none.
-nlohmann::ordered_json rounded(const std::optional<double>& share) {
-    constexpr double steps = 1e5;
-    return share ? nlohmann::ordered_json(std::round(steps * *share) / steps)
-                 : nlohmann::ordered_json();
-}
-
-/// The key that lowers the error, as the imperative of a sentence.
-std::string cure_of(const Mission& mission, double worst) {
-    if (mission.engine == EngineKind::octree) return "use engine: auto";
-    // Errors fall about as fast as the goal.
-    const double goal = mission.accuracy.relative_l1;
-    return "lower accuracy.relative_l1 to " + short_text(goal * goal / worst) +
-           (mission.engine == EngineKind::automatic
-                ? ""
-                : ", or use the engine with the least error in `sonarsim report`");
-}
-
-}  // namespace
-
-nlohmann::ordered_json json_of(const MeasuredError& error) {
-    nlohmann::ordered_json pings = nlohmann::ordered_json::array();
-    for (const PingError& ping : error.pings) {
+Json json_of(const std::optional<MeasuredError>& error) {
+    if (!error) return nullptr;
+    Json pings = Json::array();
+    for (const PingError& ping : error->pings) {
         pings.push_back({{"pose", ping.pose},
                          {"relative_l1", rounded(ping.relative_l1)},
                          {"reference_noise", rounded(ping.noise)},
                          {"by", ping.by_finer_image ? "finer image" : "reference"}});
     }
-    const std::optional<PingError> worst = error.worst();
-    return {{"mean", rounded(error.mean())},
-            {"worst", worst ? rounded(worst->relative_l1) : nlohmann::ordered_json()},
+    const std::optional<PingError> worst = error->worst();
+    return {{"mean", rounded(error->mean())},
+            {"worst", worst ? rounded(worst->relative_l1) : Json()},
             {"pings", std::move(pings)}};
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "output/dataset/json.h"
 #include "run/checks/warning.h"
 #include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
@@ -54,8 +54,8 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const VisibilityEngine& engine);
 
 /// For dataset.json: the mean, the worst and every ping with the noise of its reference. An
-/// error that is not measured is null.
-nlohmann::ordered_json json_of(const MeasuredError& error);
+/// error that is not measured is null, and so is that of a sonar without one.
+Json json_of(const std::optional<MeasuredError>& error);
 
 /// A warning for each sonar with a measured error above the mission's goal, with the key to change.
 std::vector<Warning> error_warnings(const Mission& mission,

@@ -1,5 +1,7 @@
 #include "run/checks/warning.h"
 
+#include <iterator>
+
 namespace sonarsim {
 
 namespace {
@@ -138,6 +140,10 @@ std::string warning_table_markdown() {
                             without_figures(row.what), without_figures(row.cure), row.limit);
     }
     return text;
+}
+
+void append(std::vector<Warning>& out, std::vector<Warning> more) {
+    std::ranges::move(more, std::back_inserter(out));
 }
 
 std::string number_of(WarningCode code) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sonarsim {
 
@@ -63,6 +64,9 @@ Warning make_warning(WarningCode code, std::string about, const Figures&... figu
     return {code, std::move(about), fmt::vformat(text.what, fmt::make_format_args(figures...)),
             fmt::vformat(text.cure, fmt::make_format_args(figures...))};
 }
+
+/// Moves warnings to the end of others.
+void append(std::vector<Warning>& out, std::vector<Warning> more);
 
 /// "W12".
 std::string number_of(WarningCode code);

@@ -23,8 +23,6 @@ namespace sonarsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* or_overwrite = ", or replace it with --overwrite";
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure = "") {
@@ -140,9 +138,9 @@ DatasetFile require_part(const fs::path& folder, const fs::path& first) {
 }
 
 CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
-                              const Layout& layout, const std::vector<Writers>& writers) {
-    CommonFiles files{describe_dataset(mission, assembly, layout, writers),
-                      resolved_text(mission, assembly), write_tum(assembly.trajectory)};
+                              const Layout& layout) {
+    CommonFiles files{describe_dataset(mission, assembly, layout), resolved_text(mission, assembly),
+                      write_tum(assembly.trajectory)};
     if (assembly.seabed) files.initial = seabed_files(*assembly.seabed);
     if (!assembly.reported.empty())
         files.initial.emplace_back(navigation_name, write_tum(assembly.reported));

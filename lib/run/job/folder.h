@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "output/dataset/dataset_file.h"
+#include "output/dataset/json.h"
 #include "output/dataset/layout.h"
 
 namespace sonarsim {
@@ -17,17 +17,17 @@ enum class FolderState {
 };
 
 /// The text of the files that do not belong to one ping.
-struct CommonFiles {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
-    nlohmann::ordered_json description;  ///< dataset.json, not complete
-    std::string mission;                 ///< mission.resolved.yaml
-    std::string trajectory;              ///< trajectory.tum
+struct CommonFiles {         // NOLINT(bugprone-exception-escape): moving JSON throws nothing
+    Json description;        ///< dataset.json, not complete
+    std::string mission;     ///< mission.resolved.yaml
+    std::string trajectory;  ///< trajectory.tum
     /// Names relative to the folder and bytes of the shared products that are there from the
     /// beginning.
     std::vector<std::pair<std::string, std::string>> initial = {};
 };
 
 CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
-                              const Layout& layout, const std::vector<Writers>& writers);
+                              const Layout& layout);
 
 /// Their size on the disk, bytes.
 double bytes_of(const CommonFiles& files);
@@ -48,9 +48,8 @@ bool is_unused(const std::filesystem::path& folder);
 /// (mission.resolved.yaml) stand for. InputError when it holds something else: other files, or a
 /// dataset of another mission, of other input files or of another version of the program; with
 /// `overwrite` any dataset will do, and the folder counts as fresh.
-FolderState inspect_folder(const std::filesystem::path& folder,
-                           const nlohmann::ordered_json& description, const std::string& mission,
-                           bool overwrite = false);
+FolderState inspect_folder(const std::filesystem::path& folder, const Json& description,
+                           const std::string& mission, bool overwrite = false);
 
 /// InputError when writing the dataset would touch what is not its own: a file that the mission
 /// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
@@ -81,12 +80,11 @@ void write_common_files(const Layout& layout, const CommonFiles& files);
 void remove_temporary_files(const std::filesystem::path& folder);
 
 /// The same for the folder of a dataset and those in it that `description` (dataset.json) names.
-void remove_leftovers(const std::filesystem::path& folder,
-                      const nlohmann::ordered_json& description);
+void remove_leftovers(const std::filesystem::path& folder, const Json& description);
 
 /// Removes what killed runs left in the folder of a complete dataset, or of variants: parts of the
 /// journal and, unless another run is at work there or the disk cannot be written to, temporary
 /// files. The caller holds no lock of the folder.
-void tidy(const std::filesystem::path& folder, const nlohmann::ordered_json& description);
+void tidy(const std::filesystem::path& folder, const Json& description);
 
 }  // namespace sonarsim

@@ -20,8 +20,6 @@ namespace sonarsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 /// InputError when a file of a part, or a folder on the way to it, is a link: the part may come
 /// from anybody, and what a link names may be private.
 void require_own(const fs::path& part, const fs::path& name) {

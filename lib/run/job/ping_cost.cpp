@@ -81,24 +81,25 @@ double product_bytes(const WriterContext& context, const Writers& all,
 }  // namespace
 
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
-                                    const std::vector<Writers>& writers, double& set_up_s) {
+                                    const Layout& layout, double& set_up_s) {
     Stopwatch watch;
     const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
     set_up_s += watch.lap();
     std::vector<PingCost> costs(assembly.sonars.size());
     for (std::uint32_t i = 0; i < costs.size(); ++i) {
         const Sonar& sonar = assembly.sonars[i];
+        const Writers& writers = layout.sensors[i].writers;
         const LabelPlan plan = plan_labels(mission, assembly, sonar);
         const std::size_t max_pings =
             kind_of(sonar.config.kind).has_images ? measured_images : measured_records;
         const std::vector<std::uint32_t> poses =
             sample_pings(assembly.trajectory.size(), sonar.config.every, max_pings);
-        std::vector<Records> records(writers[i].size());
+        std::vector<Records> records(writers.size());
         const auto measure = [&](std::uint32_t pose) {
             watch.lap();
             WrittenPing written = encode_ping(
-                assembly, writers[i], plan, render_at_pose(mission, assembly, *engine, {pose, i}));
-            const PingCost cost{watch.lap(), bytes_of_ping(writers[i], written.parts)};
+                assembly, writers, plan, render_at_pose(mission, assembly, *engine, {pose, i}));
+            const PingCost cost{watch.lap(), bytes_of_ping(writers, written.parts)};
             for (std::size_t k = 0; k < records.size(); ++k)
                 records[k].push_back(std::move(written.parts[k]));
             return cost;
@@ -110,8 +111,8 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
             costs[i].seconds += cost.seconds / static_cast<double>(poses.size());
             costs[i].bytes += cost.bytes / static_cast<double>(poses.size());
         }
-        const std::size_t pings = count_pings(mission, assembly.trajectory.size())[i];
-        costs[i].bytes += product_bytes({mission, assembly, i, pings}, writers[i], records) /
+        const std::size_t pings = layout.sensors[i].pings;
+        costs[i].bytes += product_bytes({mission, assembly, i, pings}, writers, records) /
                           static_cast<double>(pings);
         set_up_s += std::max(0.0, first_s - costs[i].seconds);
     }

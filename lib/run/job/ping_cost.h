@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "output/dataset/writer.h"
+#include "output/dataset/layout.h"
 
 namespace sonarsim {
 
@@ -16,6 +16,6 @@ struct PingCost {
 /// discards them. The costs are in the order of Mission::sensors. Adds to `set_up_s` the time to
 /// make the engine and the extra time of each sonar's first ping, which fills tables.
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
-                                    const std::vector<Writers>& writers, double& set_up_s);
+                                    const Layout& layout, double& set_up_s);
 
 }  // namespace sonarsim

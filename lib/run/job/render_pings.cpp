@@ -26,6 +26,27 @@ std::string size_of(const fs::path& path) {
     return std::to_string(status.st_size);
 }
 
+/// Writes the files and records of a ping where the layout says; `encoded` has the bytes of each
+/// writer. Returns the fields of the ping in the journal. From any thread, in any order.
+/// std::system_error when the disk does not take it.
+std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
+                       const std::vector<std::string>& encoded) {
+    const SensorLayout& sensor = layout.sensors[ping.sensor];
+    std::string fields;
+    for (std::size_t k = 0; k < encoded.size(); ++k) {
+        const std::string& bytes = encoded[k];
+        if (k > 0) fields += ' ';
+        if (const auto* file = std::get_if<PingFile>(&sensor.writers[k].per_ping)) {
+            write_file(layout.file(ping, *file), bytes);
+            fields += std::to_string(bytes.size()) + ':' + sha256(bytes);
+        } else {
+            records[ping.sensor][k]->write(layout.record_of(ping), std::as_bytes(std::span(bytes)));
+            fields += hash_of_record(bytes);
+        }
+    }
+    return fields;
+}
+
 /// The result of one ping besides its files.
 struct PingReport {
     RenderSummary summary;  ///< this ping alone
@@ -46,8 +67,8 @@ PingReport run_ping(const RenderRun& run, const VisibilityEngine& engine, const 
     summary.pings = 1;
     summary.stages = ping.seconds;
     if (to || plan.on) {
-        written =
-            encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), plan, rendered);
+        written = encode_ping(run.assembly, to ? to->layout.sensors[id.sensor].writers : Writers(),
+                              plan, rendered);
         summary.label_seconds = written.label_seconds;
         summary.encode_seconds = watch.lap() - written.label_seconds;
     }
@@ -71,8 +92,8 @@ RecordFiles open_records(const Layout& layout, RecordAccess access) {
     RecordFiles files(layout.sensors.size());
     for (std::size_t i = 0; i < files.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
-        for (const auto& part : sensor.per_ping) {
-            const auto* record = std::get_if<PingRecord>(&part);
+        for (const Writer& writer : sensor.writers) {
+            const auto* record = std::get_if<PingRecord>(&writer.per_ping);
             files[i].push_back(
                 record ? std::make_unique<RecordFile>(layout.sensor_folder(i) / record->file,
                                                       record->format, sensor.pings, access)
@@ -80,24 +101,6 @@ RecordFiles open_records(const Layout& layout, RecordAccess access) {
         }
     }
     return files;
-}
-
-std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
-                       const std::vector<std::string>& encoded) {
-    const SensorLayout& sensor = layout.sensors[ping.sensor];
-    std::string fields;
-    for (std::size_t k = 0; k < encoded.size(); ++k) {
-        const std::string& bytes = encoded[k];
-        if (k > 0) fields += ' ';
-        if (const auto* file = std::get_if<PingFile>(&sensor.per_ping[k])) {
-            write_file(layout.file(ping, *file), bytes);
-            fields += std::to_string(bytes.size()) + ':' + sha256(bytes);
-        } else {
-            records[ping.sensor][k]->write(layout.record_of(ping), std::as_bytes(std::span(bytes)));
-            fields += hash_of_record(bytes);
-        }
-    }
-    return fields;
 }
 
 FinishedPings::FinishedPings(const Layout& layout) : layout_(layout) {
@@ -113,11 +116,11 @@ bool FinishedPings::has(const PingId& ping) const {
     const auto entry = entries_.find(ping);
     if (entry == entries_.end()) return false;
     std::istringstream fields(entry->second);
-    const auto& parts = layout_.sensors[ping.sensor].per_ping;
+    const Writers& writers = layout_.sensors[ping.sensor].writers;
     std::string field;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t k = 0; k < writers.size(); ++k) {
         if (!(fields >> field)) return false;
-        if (const auto* file = std::get_if<PingFile>(&parts[k])) {
+        if (const auto* file = std::get_if<PingFile>(&writers[k].per_ping)) {
             const std::string size = size_of(layout_.file(ping, *file));
             if (size.empty() || !field.starts_with(size + ':')) return false;
         } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != field) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,8 +10,8 @@
 #include "output/dataset/layout.h"
 #include "output/dataset/record_file.h"
 #include "output/dataset/writer.h"
+#include "run/checks/find_warnings.h"
 #include "run/job/journal.h"
-#include "run/job/render_summary.h"
 
 namespace sonarsim {
 
@@ -18,12 +20,6 @@ using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
 /// Opens the record files of a dataset, or makes them.
 RecordFiles open_records(const Layout& layout, RecordAccess access);
-
-/// Writes the files and records of a ping where the layout says; `encoded` has the bytes of each
-/// writer. Returns the fields of the ping in the journal. From any thread, in any order.
-/// std::system_error when the disk does not take it.
-std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
-                       const std::vector<std::string>& encoded);
 
 /// The pings that need not be rendered: the journal lists them, and their files and records are as
 /// listed. Opens no file for writing: the disk may be read-only. The layout must outlive it.
@@ -42,6 +38,42 @@ class FinishedPings {
     JournalEntries entries_;
 };
 
+struct RenderSummary {
+    std::uint64_t pings = 0;    ///< rendered by this run
+    std::uint64_t skipped = 0;  ///< not rendered: their files were there already
+    bool complete = false;      ///< the folder now holds every ping of every shard
+    bool stopped = false;       ///< ended early on request
+    bool unlocked = false;      ///< the disk has no locks that would refuse a second run
+    double seconds = 0.0;       ///< wall clock from the first ping to the last
+    PingSeconds stages;         ///< summed over the pings, and so over threads
+    double label_seconds = 0.0;
+    double encode_seconds = 0.0;
+    double write_seconds = 0.0;
+    PingCounts counts;                   ///< summed over the pings
+    std::vector<Warning> warnings;       ///< from the engine; of variants also about the images
+    std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
+    std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
+
+    /// Adds the sums over pings, and no more.
+    RenderSummary& operator+=(const RenderSummary& more) {
+        pings += more.pings;
+        skipped += more.skipped;
+        stages += more.stages;
+        label_seconds += more.label_seconds;
+        encode_seconds += more.encode_seconds;
+        write_seconds += more.write_seconds;
+        counts += more.counts;
+        clipped_pixels += more.clipped_pixels;
+        sensors.resize(std::max(sensors.size(), more.sensors.size()));
+        for (std::size_t i = 0; i < more.sensors.size(); ++i)
+            sensors[i] += more.sensors[i];
+        return *this;
+    }
+};
+
+/// As ProgressCallback, with the sums over the pings so far.
+using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_t total)>;
+
 /// A run as its steps share it.
 struct RenderRun {
     const Mission& mission;
@@ -55,7 +87,6 @@ struct RenderRun {
 /// The place that a run writes to.
 struct Destination {
     const Layout& layout;
-    const std::vector<Writers>& writers;
     const RecordFiles& records;
     Journal& journal;
 };

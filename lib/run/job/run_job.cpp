@@ -31,7 +31,7 @@ constexpr const char* error_key = "measured_error";
 /// it is measured, which gives the same values in every shard. The first of several variants stands
 /// for all.
 void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
-                        const fs::path& folder, nlohmann::ordered_json& description) {
+                        const fs::path& folder, Json& description) {
     if (run.mission.variant.index > 0) return;
     if (fs::exists(folder / description_name)) {
         const auto found = read_description(folder);
@@ -42,12 +42,10 @@ void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
     }
     const std::vector<std::optional<MeasuredError>> errors =
         measure_errors(run.mission, run.assembly, engine);
-    nlohmann::ordered_json& by_sensor = description[error_key] = nlohmann::ordered_json::object();
+    Json& by_sensor = description[error_key] = Json::object();
     for (std::size_t i = 0; i < errors.size(); ++i)
-        by_sensor[run.mission.sensors[i].name] =
-            errors[i] ? json_of(*errors[i]) : nlohmann::ordered_json();
-    for (Warning& warning : error_warnings(run.mission, errors))
-        run.summary.warnings.push_back(std::move(warning));
+        by_sensor[run.mission.sensors[i].name] = json_of(errors[i]);
+    append(run.summary.warnings, error_warnings(run.mission, errors));
 }
 
 /// The pings of the shard that a run renders.
@@ -65,9 +63,9 @@ std::map<std::string, std::string> ping_sums(const Layout& layout, const Journal
         if (ping.sensor >= layout.sensors.size()) continue;  // a line that somebody has added
         std::istringstream fields(entry);
         std::string field;
-        for (const PingOutput& part : layout.sensors[ping.sensor].per_ping) {
+        for (const Writer& writer : layout.sensors[ping.sensor].writers) {
             fields >> field;
-            if (const auto* file = std::get_if<PingFile>(&part))
+            if (const auto* file = std::get_if<PingFile>(&writer.per_ping))
                 sums.emplace(layout.file(ping, *file).lexically_relative(layout.folder).string(),
                              field.substr(field.find(':') + 1));
         }
@@ -93,11 +91,10 @@ std::string checksums(const Layout& layout, const JournalEntries& entries,
 /// Completes a dataset that has every ping: writes products, journal.txt and SHA256SUMS, then
 /// dataset.json with `complete` set to true; closes `records`. Several shards may do it at once:
 /// they write the same. std::system_error when the disk fails.
-void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
-                      RecordFiles& records, const CommonFiles& common) {
-    for (std::size_t i = 0; i < writers.size(); ++i) {
-        for (std::size_t k = 0; k < writers[i].size(); ++k) {
-            const Writer& writer = writers[i][k];
+void complete_dataset(const Layout& layout, RecordFiles& records, const CommonFiles& common) {
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        for (std::size_t k = 0; k < records[i].size(); ++k) {
+            const Writer& writer = layout.sensors[i].writers[k];
             if (!records[i][k]) {
                 remove_temporary_files(layout.sensor_folder(i) /
                                        std::get<PingFile>(writer.per_ping).name);
@@ -112,7 +109,7 @@ void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
     write_journal(layout.folder / journal_name, entries);
     // dataset.json says `complete` only after everything else is durable.
     sync_file_system(layout.folder);
-    nlohmann::ordered_json finished = common.description;
+    Json finished = common.description;
     finished["complete"] = true;
     const std::string text = json_text(finished);
     write_file(layout.folder / checksums_name,
@@ -127,9 +124,9 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     const Mission& mission = run.mission;
     const Assembly& assembly = run.assembly;
     RenderSummary& summary = run.summary;
-    const std::vector<Writers> writers = make_writers(mission, assembly);
-    const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    CommonFiles common = make_common_files(mission, assembly, layout, writers);
+    const Layout layout =
+        make_layout(mission, make_writers(mission, assembly), assembly.trajectory.size());
+    CommonFiles common = make_common_files(mission, assembly, layout);
     const std::vector<PingId> own = pings_of_shard(all, options);
     const auto finished = [&](FolderState state) {
         summary.complete =
@@ -163,13 +160,13 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     summary.skipped = own.size() - todo.size();
     if (options.shards == 1) remove_leftovers(layout.folder, common.description);
     Journal journal(lock, options.checkpoint_s);
-    const Destination to{layout, writers, records, journal};
+    const Destination to{layout, records, journal};
     render_pings(run, *engine, todo, &to);
     journal.finish();
     if (summary.stopped) return;
     const FinishedPings now(layout);
     if (now.has_all(all)) {
-        complete_dataset(layout, writers, records, common);
+        complete_dataset(layout, records, common);
         lock.remove_parts();
         if (options.shards > 1) tidy(layout.folder, common.description);  // others were killed
         summary.complete = true;

@@ -4,7 +4,7 @@
 
 #include "input/mission/mission.h"
 #include "run/job/parallel.h"
-#include "run/job/render_summary.h"
+#include "run/job/render_pings.h"
 #include "simulate/assembly/assemble.h"
 
 namespace sonarsim {

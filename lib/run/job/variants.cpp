@@ -23,8 +23,6 @@ namespace sonarsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* variants_format = "sonarsim variants";
 
 /// InputError for other variants than expected.
@@ -112,10 +110,9 @@ std::vector<int> unfinished(const Variants& variants, const RenderOptions& optio
 }
 
 void add_warnings(const Mission& variant, std::vector<Warning> found, RenderSummary& all) {
-    for (Warning& warning : found) {
+    for (Warning& warning : found)
         warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
-        all.warnings.push_back(std::move(warning));
-    }
+    append(all.warnings, std::move(found));
 }
 
 }  // namespace

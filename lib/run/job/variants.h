@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "input/mission/variants.h"
+#include "output/dataset/json.h"
 #include "run/job/run_job.h"
 
 // The variants of a mission lie below one folder:
@@ -18,27 +18,27 @@
 namespace sonarsim {
 
 /// The variants.json of a mission.
-nlohmann::ordered_json describe_variants(const Mission& mission, const Variants& variants);
+Json describe_variants(const Mission& mission, const Variants& variants);
 
 /// The variants.json of a folder; nothing if there is none. InputError when it is not sonarsim's.
-std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
+std::optional<Json> read_variants(const std::filesystem::path& folder);
 
 /// The folders of the variants that a variants.json names, in order.
 std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
-                                                       const nlohmann::ordered_json& json);
+                                                       const Json& json);
 
 /// InputError unless a folder has this variants.json, which is that of `first`.
-void require_same_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
+void require_same_variants(const std::filesystem::path& folder, const Json& json,
                            const std::filesystem::path& first);
 
 /// InputError when the output folder holds other files, a link or, unless with `overwrite`, other
 /// variants than those of `json`. It may hold fewer.
-void inspect_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
+void inspect_variants(const std::filesystem::path& folder, const Json& json,
                       const Variants& variants, bool overwrite);
 
 /// Makes variants.json, or replaces one with fewer variants: of several runs one makes it.
 /// InputError when another one is there. The caller holds a lock on the folder.
-void claim_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
+void claim_variants(const std::filesystem::path& folder, const Json& json);
 
 /// True if the folder holds a dataset that is complete.
 bool is_complete(const std::filesystem::path& dataset);

@@ -36,6 +36,13 @@ std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size
     return std::pair(begin, end);
 }
 
+/// The margin holds the longest number of the vertical axis.
+int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
+    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
+    return std::max(min_left_margin, text_width(longest) + 12);
+}
+
 }  // namespace
 
 void tint(Picture& picture, int x, int y, Rgb colour, float share) {
@@ -111,17 +118,6 @@ Eigen::Vector2d PlaneFrame::pixel(const Eigen::Vector2d& at_m) const {
 Eigen::Vector2d PlaneFrame::metres(int column, int row) const {
     return {low.x() + (column + 0.5) * pixel_m, low.y() + (plot_height - row - 0.5) * pixel_m};
 }
-
-namespace {
-
-/// The margin holds the longest number of the vertical axis.
-int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
-    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
-    return std::max(min_left_margin, text_width(longest) + 12);
-}
-
-}  // namespace
 
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high) {

@@ -1,5 +1,3 @@
-#include "run/preview/scene_gltf.h"
-
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "input/scene/model_data.h"
+#include "run/preview/scene_views.h"
 
 namespace sonarsim {
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "run/preview/drawing.h"
-#include "run/preview/fan_style.h"
 #include "simulate/product/contrast.h"
+#include "simulate/product/fan.h"
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
 
@@ -37,6 +39,111 @@ std::vector<Ping> render_all(const std::vector<std::uint32_t>& poses, const Rend
     return pings;
 }
 
+constexpr float line_share = 0.45F;
+constexpr int min_px = 160;  // a smaller fan has no room for numbers
+
+/// The step between lines of equal azimuth, degrees, for at most ten lines.
+double bearing_step_deg(double azimuth_deg) {
+    for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0}) {
+        if (azimuth_deg <= 9.0 * step) return step;
+    }
+    return 45.0;
+}
+
+std::vector<double> ring_ranges(const View& view) {
+    std::vector<double> ranges = axis_marks(view.range_min_m, view.range_max_m, 5.0);
+    std::erase(ranges, 0.0);
+    return ranges;
+}
+
+std::vector<double> bearings_deg(const View& view) {
+    const double azimuth_deg = degrees(view.azimuth_rad);
+    const double step = bearing_step_deg(azimuth_deg);
+    const int last = static_cast<int>(std::floor(0.5 * azimuth_deg / step + 1e-9));
+    std::vector<double> bearings;
+    for (int k = -last; k <= last; ++k)
+        bearings.push_back(k * step);
+    // In a full turn the first and the last line are both astern.
+    if (azimuth_deg >= 360.0 && bearings.size() > 1) bearings.erase(bearings.begin());
+    return bearings;
+}
+
+/// The weight of a smooth line of one pixel whose middle is `pixels` away.
+float cover(double pixels) {
+    return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
+}
+
+void draw_lines(Picture& picture, const FanFrame& frame, const View& view) {
+    const std::vector<double> ranges = ring_ranges(view);
+    const std::vector<double> bearings = bearings_deg(view);
+    for (int row = 0; row < frame.height; ++row) {
+        for (int column = 0; column < frame.width; ++column) {
+            const FanPlace place = fan_place(frame, view.range_max_m, column, row);
+            if (!is_inside_sector(view, place)) continue;
+            float share = 0.0F;
+            for (const double range : ranges)
+                share = std::max(share, cover((place.range_m - range) / frame.pixel_m));
+            for (const double bearing : bearings) {
+                const SinCos off = sincos(place.azimuth_rad - radians(bearing));
+                if (off.cos > 0.0)
+                    share = std::max(share, cover(place.range_m * off.sin / frame.pixel_m));
+            }
+            if (share > 0.0F) tint(picture, column, row, mark_colour, share);
+        }
+    }
+}
+
+struct Pixel {
+    int x;
+    int y;
+};
+
+Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
+    const SinCos at = sincos(azimuth_rad);
+    return {static_cast<int>(std::floor(0.5 * frame.width - range_m * at.sin / frame.pixel_m)),
+            static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
+}
+
+/// Writes a number within the picture.
+void write_number(Picture& picture, const Pixel& at, const std::string& text) {
+    const int half = text_width(text) / 2 + 1;
+    const int x = std::clamp(at.x, half, std::max(half, picture.width - half));
+    const int y = std::clamp(at.y, 5, std::max(5, picture.height - 5));
+    outlined_label(picture, x, y, text, Align::middle, mark_colour);
+}
+
+void write_numbers(Picture& picture, const FanFrame& frame, const View& view) {
+    const bool wide = view.azimuth_rad > pi;
+    for (const double range_m : ring_ranges(view)) {
+        if (range_m > 0.97 * view.range_max_m) continue;  // the outermost bearing has its number
+        const std::string text = number_text(range_m) + " m";
+        Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+        at.x += 5 + text_width(text) / 2;
+        at.y += wide ? 6 : 2;
+        write_number(picture, at, text);
+    }
+    const double in_m = 14.0 * frame.pixel_m;
+    for (const double bearing : bearings_deg(view)) {
+        const char* side = bearing > 0.0 && bearing < 180.0 ? "P" : bearing < 0.0 ? "S" : "";
+        write_number(picture, pixel_of(frame, view, view.range_max_m - in_m, radians(bearing)),
+                     number_text(std::fabs(bearing)) + side);
+    }
+}
+
+/// The grey values of render_fan() in amber, with rings of equal range and lines of equal azimuth.
+/// Numbers are written where there is room: ranges along the starboard edge of the sector, or along
+/// the boresight if it is wider than 180 degrees; bearings in degrees below the largest range, "P"
+/// for port and "S" for starboard.
+Picture styled_fan(const Sonar& sonar, const FanFrame& frame, std::span<const std::uint8_t> grey) {
+    Picture picture(frame.width, frame.height, backdrop);
+    for (std::size_t k = 0; k < grey.size(); ++k)
+        picture.pixels[k] = blend(amber_colours, static_cast<float>(grey[k]) / 255.0F);
+    const View& view = sonar.settings.view;
+    draw_lines(picture, frame, view);
+    if (std::min(frame.width, frame.height) >= min_px) write_numbers(picture, frame, view);
+    return picture;
+}
+
 /// Draws the largest fan that fits.
 SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height) {
     const FanFrame full = fan_frame(sonar, width);
@@ -62,56 +169,56 @@ SonarPanel draw_scan(const Sonar& sonar, std::uint32_t pose, const RenderPing& r
     return draw_fan(whole_scan(sonar), display.image(), width, height);
 }
 
-/// The values of a picture, [rows, columns].
-struct Values {
-    std::size_t rows;
-    std::size_t columns;
-    std::vector<float> value;
+/// The records of the pings around a ping, and its index among them.
+struct Series {
+    std::vector<std::vector<float>> records;
+    std::size_t here;
+    double white;
 };
 
-/// Draws values; a pixel shows the mean of the values that it covers, at least one.
-void draw_values(Picture& picture, int left, int width, int height, const Values& values,
-                 double white, std::span<const Rgb> stops) {
+/// Draws the records as rows or, if `upright`, as columns; a pixel shows the mean of the values
+/// that it covers, at least one.
+void draw_values(Picture& picture, int left, int width, int height, const Series& series,
+                 bool upright, std::span<const Rgb> stops) {
+    const std::vector<std::vector<float>>& records = series.records;
+    const std::size_t all_rows = upright ? records[0].size() : records.size();
+    const std::size_t all_columns = upright ? records.size() : records[0].size();
     const auto span_of = [](int pixel, int pixels, std::size_t count) {
         const std::size_t begin = static_cast<std::size_t>(pixel) * count / pixels;
         const std::size_t end = (static_cast<std::size_t>(pixel) + 1) * count / pixels;
         return std::pair(begin, std::max(end, begin + 1));
     };
     for (int y = 0; y < height; ++y) {
-        const auto rows = span_of(y, height, values.rows);
+        const auto rows = span_of(y, height, all_rows);
         for (int x = 0; x < width; ++x) {
-            const auto columns = span_of(x, width, values.columns);
+            const auto columns = span_of(x, width, all_columns);
             float sum = 0.0F;
             for (std::size_t i = rows.first; i < rows.second; ++i) {
                 for (std::size_t j = columns.first; j < columns.second; ++j)
-                    sum += values.value[i * values.columns + j];
+                    sum += upright ? records[j][i] : records[i][j];
             }
             const auto count =
                 static_cast<float>((rows.second - rows.first) * (columns.second - columns.first));
-            picture.row(y)[left + x] = blend(stops, shade(sum / count, static_cast<float>(white)));
+            picture.row(y)[left + x] =
+                blend(stops, shade(sum / count, static_cast<float>(series.white)));
         }
     }
 }
 
-/// The pings around a ping, and its index among them.
-struct Series {
-    std::vector<Ping> pings;
-    std::size_t here;
-    double white;
-};
-
-Series render_series(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
-                     const RenderPing& render) {
+Series render_series(const Sonar& sonar, const RecordShape& shape, std::uint32_t pose,
+                     std::size_t poses, const RenderPing& render) {
     const auto every = static_cast<std::size_t>(sonar.config.every);
     const std::size_t all = (poses + every - 1) / every;
     const std::size_t count = std::min(all, series_pings);
     const std::size_t here = pose / every;
     const std::size_t first = std::min(here - std::min(here, count / 2), all - count);
     const auto last = static_cast<std::uint32_t>((first + count - 1) * every);
-    Series series{render_all(poses_until(sonar, last, count), render), here - first, 1.0};
+    Series series{{}, here - first, 1.0};
     Gain gain;
-    for (const Ping& ping : series.pings)
+    for (const Ping& ping : render_all(poses_until(sonar, last, count), render)) {
         gain.add(ping.intensity);
+        series.records.push_back(record_values(shape, sonar.config, ping.intensity, 0.0F));
+    }
     series.white = gain.white();
     return series;
 }
@@ -120,14 +227,9 @@ Series render_series(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
 SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series& series, int width,
                      int height) {
     const SonarConfig& config = sonar.config;
-    Values values{series.pings.size(), shape.values(config), {}};
-    for (const Ping& ping : series.pings) {
-        const std::vector<float> row = record_values(shape, config, ping.intensity, 0.0F);
-        values.value.insert(values.value.end(), row.begin(), row.end());
-    }
     Picture picture(width, height, backdrop);
     const int bottom = height - axis_px;
-    draw_values(picture, 0, width, bottom, values, series.white, copper_colours);
+    draw_values(picture, 0, width, bottom, series, false, copper_colours);
     const auto mark_at = [&](double range, int x) {
         fill(picture, x, bottom, 1, 4, ink);
         const std::string text = number_text(range) + " m";
@@ -149,28 +251,18 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
         for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))
             mark_at(range, static_cast<int>((range - config.range_min_m) * px_per_m));
     }
-    const int y = static_cast<int>((series.here + 0.5) * bottom / series.pings.size());
+    const int y = static_cast<int>((series.here + 0.5) * bottom / series.records.size());
     fill(picture, 0, y, 14, 1, mark_colour);
     fill(picture, width - 14, y, 14, 1, mark_colour);
     return {std::move(picture), series.white};
 }
 
 /// Draws pings as columns, with the range axis on the left.
-SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Series& series,
-                        int width, int height) {
+SonarPanel draw_columns(const Sonar& sonar, const Series& series, int width, int height) {
     const SonarConfig& config = sonar.config;
-    const std::size_t columns = series.pings.size();
-    Values values{shape.values(config), columns, {}};
-    values.value.resize(values.rows * columns);
-    for (std::size_t k = 0; k < columns; ++k) {
-        const std::vector<float> column =
-            record_values(shape, config, series.pings[k].intensity, 0.0F);
-        for (std::size_t i = 0; i < column.size(); ++i)
-            values.value[i * columns + k] = column[i];
-    }
     Picture picture(width, height, backdrop);
     const int left = number_px;
-    draw_values(picture, left, width - left, height, values, series.white, sea_colours);
+    draw_values(picture, left, width - left, height, series, true, sea_colours);
     const double px_per_m = height / (config.range_max_m - config.range_min_m);
     for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
         const int y = static_cast<int>((range - config.range_min_m) * px_per_m);
@@ -178,7 +270,8 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
         label(picture, left - 8, std::clamp(y, 6, height - 6), number_text(range) + " m",
               Align::right);
     }
-    const int x = left + static_cast<int>((series.here + 0.5) * (width - left) / columns);
+    const int x =
+        left + static_cast<int>((series.here + 0.5) * (width - left) / series.records.size());
     fill(picture, x, 0, 1, 14, mark_colour);
     fill(picture, x, height - 14, 1, 14, mark_colour);
     return {std::move(picture), series.white};
@@ -197,8 +290,8 @@ SonarPanel draw_sonar(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
     if (shape.pictures == RecordPictures::none) return draw_fan(sonar, render(own), width, height);
     if (shape.pictures == RecordPictures::sweeps)
         return draw_scan(sonar, own, render, width, height);
-    const Series series = render_series(sonar, own, poses, render);
-    return shape.upright ? draw_columns(sonar, shape, series, width, height)
+    const Series series = render_series(sonar, shape, own, poses, render);
+    return shape.upright ? draw_columns(sonar, series, width, height)
                          : draw_rows(sonar, shape, series, width, height);
 }
 

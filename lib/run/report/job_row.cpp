@@ -27,8 +27,7 @@ RenderSummary render(Mission mission, const Assembly& assembly, int threads) {
 
 }  // namespace
 
-nlohmann::ordered_json measure_job(const Mission& mission, double ms_rays,
-                                   const ReportOptions& options) {
+Json measure_job(const Mission& mission, double ms_rays, const ReportOptions& options) {
     Stopwatch watch;
     const Assembly assembly = assemble(mission);
     make_engine(mission, assembly);

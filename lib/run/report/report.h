@@ -1,16 +1,17 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "input/mission/mission.h"
-#include "run/report/timed_pings.h"
+#include "output/dataset/json.h"
 #include "simulate/assembly/assemble.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {
@@ -23,9 +24,6 @@ struct Setting {
     OctreeConfig octree;       ///< for the octree
     double relative_l1 = 0.0;  ///< error goal of all but the octree
     bool current = false;      ///< the mission's own setting
-
-    /// True if relative_l1 sets the sampling.
-    bool has_goal() const { return kind != EngineKind::octree; }
 };
 
 /// The settings of a report: rays and strips by error goal and the octree by leaf size, each from
@@ -56,9 +54,10 @@ struct ReportRow {
     double times_rays = 0.0;
     bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
 
-    /// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" without a goal.
+    /// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" for the octree,
+    /// which has none.
     const char* goal() const {
-        if (!setting.has_goal()) return "-";
+        if (setting.kind == EngineKind::octree) return "-";
         return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
     }
 };
@@ -95,9 +94,9 @@ struct Report {
     double load = 0.0;  ///< load average of the machine at the start
     std::vector<ReportRow> rows;
     /// The noise of the reference images of each sonar, and the rays that echoed per occupied bin.
-    nlohmann::ordered_json references = nlohmann::ordered_json::array();
+    Json references = Json::array();
     std::vector<MultipathRow> multipath;  ///< only for sonars that have it
-    nlohmann::ordered_json job;           ///< measure_job()
+    Json job;                             ///< measure_job()
 };
 
 /// Reports progress.
@@ -123,11 +122,59 @@ std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assemb
 /// Renders some pings of a mission into a temporary folder: the images per second on all threads
 /// and, on one thread, the set-up and the stages of an image. `ms_rays` is the time of the rays
 /// that an image is compared with.
-nlohmann::ordered_json measure_job(const Mission& mission, double ms_rays,
-                                   const ReportOptions& options);
+Json measure_job(const Mission& mission, double ms_rays, const ReportOptions& options);
 
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);
 std::string report_markdown(const Report& report);
+
+// Timing of pings for a comparison of settings. A caller lets the settings take turns, so that a
+// machine that slows down slows all of them.
+
+/// 0 for no values.
+double median_of(std::vector<double> values);
+double mean_of(const std::vector<double>& values);
+
+/// CPU time of this thread in seconds, which stays comparable on a busy machine.
+double thread_seconds_now();
+
+/// Number of rays for the time that pings are compared with: that of Embree alone over the same
+/// view of the same scene.
+inline constexpr int view_rays_count = 131'072;
+
+/// `view_rays_count` unit directions in the sensor frame, evenly spread over a view: 512 columns of
+/// 256 rays, column by column.
+std::vector<Eigen::Vector3f> view_rays(const View& view);
+
+/// The pings that every setting is measured on. Mission and scene must outlive it.
+struct PingSet {
+    const Mission& mission;
+    const Scene& scene;
+    std::vector<Pose> poses;             ///< T_world_vehicle, sampled along the trajectory
+    std::vector<std::uint32_t> indices;  ///< index of each pose on the trajectory
+
+    PingSet(const Mission& mission, const Assembly& assembly, int poses);
+    /// The sonar with its per-ping settings at pose `p`.
+    SonarAtPose at_pose(const Sonar& sonar, std::size_t p) const {
+        return {mission, sonar, indices[p]};
+    }
+    PingKey key(std::size_t p) const { return {mission.seed, indices[p]}; }
+};
+
+/// The times of one setting at one pose, over all visits.
+struct PoseTimes {
+    std::vector<double> ping_ms;
+    std::vector<double> ping_thread_ms;  ///< CPU time of the same pings
+    std::vector<double> multipath_ms;    ///< time of the stage of multipath
+    std::vector<double> rays_thread_ms;  ///< CPU time of Embree on view_rays()
+};
+
+/// Pings a few times and adds the times to `times`: first a ping to warm the caches after the other
+/// settings, then the measured ones. A slow setting needs only one. Returns the traced surface.
+TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const VisibilityEngine& engine,
+                      std::size_t p, PoseTimes& times);
+
+/// The median over the poses of the medians at each of them; milliseconds.
+double over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms);
 
 }  // namespace sonarsim

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "run/report/report.h"
 
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(const ReportRow& row) {
     return {{"sensor", row.sensor},

@@ -1,11 +1,10 @@
-#include "run/report/timed_pings.h"
-
 #include <time.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/clock.h"
+#include "run/report/report.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

@@ -32,7 +32,7 @@ std::optional<Writer> make_image_writer(const WriterContext& context) {
             },
         // The picture has the rows and columns of polar/. A fan has ahead up and port on the left.
         .describe =
-            [](nlohmann::ordered_json& sensor) {
+            [](Json& sensor) {
                 sensor["image"] = {{"axes", {"range", "azimuth"}},
                                    {"first_row", "nearest range"},
                                    {"first_column", "starboard"}};
@@ -55,7 +55,7 @@ std::optional<Writer> make_fan_writer(const WriterContext& context) {
                           return png_bytes(fan, frame.width, frame.height);
                       },
                   .describe =
-                      [=](nlohmann::ordered_json& sensor) {
+                      [=](Json& sensor) {
                           sensor["fan"] = {{"width_px", frame.width},
                                            {"height_px", frame.height},
                                            {"pixel_m", frame.pixel_m},

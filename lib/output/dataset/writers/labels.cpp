@@ -4,10 +4,21 @@
 #include <type_traits>
 #include <utility>
 
-#include "output/dataset/writers/label_writers.h"
+#include "output/dataset/writer.h"
 #include "simulate/product/fan_bins.h"
 
 namespace sonarsim {
+
+/// objects/NNNNNN.json: each object in the ping with its mask, in the pixels of the sonar's image
+/// (rows of range, columns of beams) and of its fan. For sonars with images.
+Writer objects_writer(const WriterContext& context);
+
+/// Adds the facts of the objects in the records of a sonar without images to the products of the
+/// writer of instance.npy. They are made of that, of object_shadow.npy, visible_share.npy and the
+/// echoes: NAME/objects.json for the picture of all pings (waterfall, echogram),
+/// NAME/objects_NNNN.json for the picture of each sweep. In the former an object has an entry for
+/// each side and each pass; after 32 pings that do not show it, it begins another pass.
+void add_record_objects(const WriterContext& context, Writer& writer);
 
 namespace {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -19,12 +18,13 @@ namespace sonarsim {
 /// The values of successive pings, [lines, bins].
 struct RecordValues {
     RecordValues(int line_count, int bin_count, bool is_full_turn = false)
-        : lines(line_count), bins(bin_count), full_turn(is_full_turn) {
-        const std::size_t all = static_cast<std::size_t>(lines) * bins;
-        for (std::vector<std::uint16_t>* ids : {&object, &shadow, &visible_share})
-            ids->resize(all);
-        level.resize(all);
-    }
+        : lines(line_count),
+          bins(bin_count),
+          full_turn(is_full_turn),
+          object(static_cast<std::size_t>(lines) * bins),
+          shadow(object.size()),
+          visible_share(object.size()),
+          level(object.size()) {}
 
     int lines, bins;
     bool full_turn;  ///< the last line is next to the first
@@ -56,7 +56,7 @@ struct SeenObject {
     }
 };
 
-inline nlohmann::ordered_json rounded(const std::optional<double>& value, double per_unit) {
+inline Json rounded(const std::optional<double>& value, double per_unit) {
     if (!value) return nullptr;
     return std::round(*value * per_unit) / per_unit;
 }
@@ -65,7 +65,8 @@ inline nlohmann::ordered_json rounded(const std::optional<double>& value, double
 class ObjectRecords {
   public:
     ObjectRecords(const WriterContext& context, const std::filesystem::path& folder)
-        : context_(context),
+        : has_shadow(shadow_ids(context.assembly.objects)),
+          context_(context),
           object_(
               open(folder,
                    context.mission.labels.mask == MaskKind::echo ? "instance" : silhouette_record,
@@ -73,8 +74,7 @@ class ObjectRecords {
           shadow_(open(folder, object_shadow_record, "<u2")),
           visible_share_(open(folder, visible_share_record, "<u2")),
           level_(open(folder, context.kind().record.name, "<f4")),
-          is_background_(background_ids(context.assembly.objects)),
-          has_shadow_(shadow_ids(context.assembly.objects)) {
+          is_background_(background_ids(context.assembly.objects)) {
         const std::vector<double>& edges = context.sonar().range_edges_m;
         for (std::size_t k = 0; k + 1 < edges.size(); ++k)
             range_m.push_back(0.5 * (edges[k] + edges[k + 1]));
@@ -86,14 +86,12 @@ class ObjectRecords {
         return context_.mission.labels.mask == MaskKind::echo ? ids : outlined(frame, ids);
     }
     const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
-    /// 1 for the ids whose masks include the shadow.
-    const std::vector<std::uint8_t>& has_shadow() const { return has_shadow_; }
     /// The ids of a picture with the shadows of those whose masks include them.
     std::vector<std::uint16_t> shadowed(const MaskFrame& frame, const RecordValues& values,
                                         const std::vector<std::uint16_t>& ids) const {
         const LevelMap map = map_of(values);
-        return with_shadows(frame, ids, visible_shadows(map, has_shadow_, is_background_),
-                            has_shadow_);
+        return with_shadows(frame, ids, visible_shadows(map, has_shadow, is_background_),
+                            has_shadow);
     }
 
     /// Reads `count` pings from `first` on into the lines from `line` on, without background.
@@ -127,7 +125,7 @@ class ObjectRecords {
             seen.shadow_contrast_db = contrast_db(map, map.shadow, seen.id, shadow, is_background_);
     }
 
-    nlohmann::ordered_json json(const SeenObject& seen, const ObjectMask& mask) const {
+    Json json(const SeenObject& seen, const ObjectMask& mask) const {
         const auto mean = [&](double sum, int count) -> std::optional<double> {
             if (count == 0) return std::nullopt;
             return sum / count;
@@ -135,7 +133,7 @@ class ObjectRecords {
         constexpr double whole = 65535.0;
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects.at(seen.id - 1U);
-        nlohmann::ordered_json json = {
+        Json json = {
             {"id", seen.id}, {"name", object.name}, {"class", objects.classes[object.class_index]}};
         if (seen.side) json["side"] = seen.side;
         json["pings"] = {seen.pings.first, seen.pings.second};
@@ -153,7 +151,8 @@ class ObjectRecords {
         return json;
     }
 
-    std::vector<double> range_m;  ///< middle of each range bin
+    std::vector<double> range_m;           ///< middle of each range bin
+    std::vector<std::uint8_t> has_shadow;  ///< 1 for the ids whose masks include the shadow
 
   private:
     static LevelMap map_of(const RecordValues& values) {
@@ -169,7 +168,7 @@ class ObjectRecords {
 
     const WriterContext& context_;
     RecordFile object_, shadow_, visible_share_, level_;
-    std::vector<std::uint8_t> is_background_, has_shadow_;  ///< indexed by id
+    std::vector<std::uint8_t> is_background_;  ///< indexed by id
 };
 
 }  // namespace sonarsim

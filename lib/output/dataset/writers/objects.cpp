@@ -6,15 +6,12 @@
 #include <vector>
 
 #include "output/dataset/annotated_objects.h"
-#include "output/dataset/json.h"
-#include "output/dataset/writers/label_writers.h"
+#include "output/dataset/writer.h"
 #include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The box around a whole object along the axes of a frame, placed in the sensor's frame.
 Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,

@@ -1,7 +1,6 @@
-#include <algorithm>
 #include <cstdint>
 
-#include "output/dataset/averaged_rows.h"
+#include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/scan.h"
 
@@ -21,10 +20,7 @@ int raw_bytes(const WriterContext& context) {
 PingNumbers raw_numbers(std::vector<std::uint16_t> values, int bytes,
                         std::vector<std::size_t> shape) {
     if (bytes == 2) return {std::move(values), std::move(shape)};
-    std::vector<std::uint8_t> narrow(values.size());
-    std::ranges::transform(values, narrow.begin(),
-                           [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
-    return {std::move(narrow), std::move(shape)};
+    return {std::vector<std::uint8_t>(values.begin(), values.end()), std::move(shape)};
 }
 
 /// Makes the pictures of raw.npy, whose numbers are of type T.

@@ -5,8 +5,7 @@
 #include "core/elementary.h"
 #include "core/file.h"
 #include "core/units.h"
-#include "output/dataset/averaged_rows.h"
-#include "output/dataset/writers/label_writers.h"
+#include "output/dataset/strip_rows.h"
 #include "output/dataset/writers/object_records.h"
 #include "simulate/product/fan_bins.h"
 #include "simulate/product/scan.h"
@@ -16,7 +15,6 @@ namespace sonarsim {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Ids = std::vector<std::uint16_t>;
 
 constexpr std::size_t max_unseen = 32;     // pings between two of one pass
@@ -99,7 +97,7 @@ class Strip {
                 const std::uint16_t id = values.shadow[bin];
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 if (id == 0 || one.pass == 0) continue;
-                if (source_.has_shadow()[id] != 0 && one.last == ping) draw(ping, bin, one.pass);
+                if (source_.has_shadow[id] != 0 && one.last == ping) draw(ping, bin, one.pass);
                 BinBox& box = one.last == ping ? passes_[one.pass].shadow : one.shadow;
                 box.extend(static_cast<int>(ping), bin);
             }

@@ -47,7 +47,7 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
         for (const char* extension : {".npy", ".png"})
             products.push_back(scan_file_name(stem, sweep, extension));
     }
-    const auto describe = [=](nlohmann::ordered_json& sensor) {
+    const auto describe = [=](Json& sensor) {
         const Sonar& sonar = context.sonar();
         if (context.kind().record.describe) context.kind().record.describe(sonar, sensor);
         const std::string file = sonar.config.name + "/" + stem + "_%04d.png";

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "core/file.h"
@@ -176,13 +175,13 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
         write_soundings(source, folder);
         write_bathymetry(context, source, folder);
     };
-    PingRecord record;
-    record.file = "soundings.npy";
-    record.format = {"<f8", {context.pings, beams, numbers_of_sounding + labels.size()}};
     std::string fields = "range_m, x_m, y_m, z_m, quality";
     for (const SoundingLabel& label : labels)
         fields += std::string(", ") + label.name;
-    record.axes = {"ping", "beam", fields};
+    PingRecord record{
+        .file = "soundings.npy",
+        .format = {"<f8", {context.pings, beams, numbers_of_sounding + labels.size()}},
+        .axes = {"ping", "beam", fields}};
     return Writer{.per_ping = std::move(record),
                   .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
                                "bathymetry.json", "bathymetry.png"},
@@ -192,7 +191,7 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
                       },
                   .write_products = write_products,
                   .describe =
-                      [&config](nlohmann::ordered_json& sensor) {
+                      [&config](Json& sensor) {
                           sensor["pictures"].push_back({{"title", "bathymetry"},
                                                         {"file", config.name + "/bathymetry.png"},
                                                         {"per", "sensor"}});

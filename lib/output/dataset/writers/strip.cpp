@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "output/dataset/averaged_rows.h"
+#include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/contrast.h"
 
@@ -14,6 +14,45 @@ void write_swath_files(const WriterContext& context, const RecordFile& rows,
                        const std::filesystem::path& folder);
 
 namespace {
+
+/// The float32 records of a file as the rows of a picture, each the mean of pings_per_row() pings.
+class AveragedRows {
+  public:
+    explicit AveragedRows(const RecordFile& records)
+        : records_(records),
+          record_(records.record_bytes() / sizeof(float)),
+          mean_(record_.size()) {}
+
+    std::size_t rows() const { return static_cast<std::size_t>(picture_rows(records_.records())); }
+
+    /// Row k; valid until the next call.
+    const std::vector<float>& row(std::size_t k) {
+        const std::size_t fold = pings_per_row(records_.records());
+        const std::size_t first = k * fold;
+        const std::size_t last = std::min(first + fold, records_.records());
+        std::ranges::fill(mean_, 0.0F);
+        for (std::size_t i = first; i < last; ++i) {
+            records_.read(i, std::as_writable_bytes(std::span(record_)));
+            for (std::size_t x = 0; x < mean_.size(); ++x)
+                mean_[x] += record_[x];
+        }
+        for (float& value : mean_)
+            value /= static_cast<float>(last - first);
+        return mean_;
+    }
+
+    /// The intensity of the brightest colour in a picture for people.
+    double white() {
+        Gain gain;
+        for (std::size_t k = 0; k < rows(); ++k)
+            gain.add(row(k));
+        return gain.white();
+    }
+
+  private:
+    const RecordFile& records_;
+    std::vector<float> record_, mean_;
+};
 
 std::string plain_name(const RecordShape& shape) {
     return std::string(shape.name) + ".png";
@@ -30,7 +69,7 @@ void write_pictures(const WriterContext& context, const RecordFile& file,
                     const std::filesystem::path& folder) {
     const RecordShape& shape = context.kind().record;
     AveragedRows records(file);
-    const double white = white_of(records);
+    const double white = records.white();
     const auto rows = static_cast<int>(records.rows());
     const auto values = static_cast<int>(shape.values(context.sonar().config));
     const StripFrame frame = frame_of(context);
@@ -57,7 +96,7 @@ void write_pictures(const WriterContext& context, const RecordFile& file,
     view.finish();
 }
 
-void describe_strip(const WriterContext& context, nlohmann::ordered_json& sensor) {
+void describe_strip(const WriterContext& context, Json& sensor) {
     const RecordShape& shape = context.kind().record;
     if (shape.describe) shape.describe(context.sonar(), sensor);
     const StripFrame frame = frame_of(context);
@@ -97,7 +136,7 @@ std::optional<Writer> make_strip_writer(const WriterContext& context) {
                 write_pictures(context, file, folder);
                 if (context.kind().record.two_sides) write_swath_files(context, file, folder);
             },
-        .describe = [context](nlohmann::ordered_json& s) { describe_strip(context, s); }};
+        .describe = [context](Json& s) { describe_strip(context, s); }};
 }
 
 }  // namespace sonarsim

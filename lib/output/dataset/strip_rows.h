@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "output/dataset/record_file.h"
-
 namespace sonarsim {
 
 /// The most rows (or columns) of pings in a picture; a PNG cannot have many more. If there are more
@@ -14,30 +12,15 @@ namespace sonarsim {
 inline constexpr std::size_t max_picture_rows = 60'000;
 
 /// The number of pings that share a row.
-std::size_t pings_per_row(std::size_t pings);
+inline std::size_t pings_per_row(std::size_t pings) {
+    return std::max<std::size_t>(1, (pings + max_picture_rows - 1) / max_picture_rows);
+}
 
 /// The number of rows.
-int picture_rows(std::size_t pings);
-
-/// The float32 records of a file as the rows of a picture, each the mean of pings_per_row() pings.
-class AveragedRows {
-  public:
-    explicit AveragedRows(const RecordFile& records);
-
-    std::size_t rows() const { return rows_; }
-    /// Row k; valid until the next call.
-    const std::vector<float>& row(std::size_t k);
-
-  private:
-    const RecordFile& records_;
-    std::size_t fold_;
-    std::size_t rows_;
-    std::vector<float> record_;
-    std::vector<float> mean_;
-};
-
-/// The intensity of the brightest colour in a picture for people.
-double white_of(AveragedRows& records);
+inline int picture_rows(std::size_t pings) {
+    const std::size_t each = pings_per_row(pings);
+    return static_cast<int>((pings + each - 1) / each);
+}
 
 /// Visits the rows of a strip from the top. A row is a ping or, in an upright strip, one of the
 /// values over all pings. `read` returns the values of ping k; an upright strip reads each ping
