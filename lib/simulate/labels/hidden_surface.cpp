@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "simulate/labels/sight_lines.h"
@@ -101,10 +100,11 @@ class LineTracer {
             const float half_m = half_extent(line, line.range_m, met.normal);
             const float near_m = std::max(line.range_m - half_m, line.before_m);
             const float far_m = line.range_m + half_m;
-            const float each = line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
+            const float each =
+                line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
             for (std::uint32_t beam = line.beam; beam <= line.last_beam; ++beam)
-                pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
-                                   0.5F * (far_m - near_m), each});
+                pieces_.push_back(
+                    {beam, owner_of(line), 0.5F * (near_m + far_m), 0.5F * (far_m - near_m), each});
         }
         const std::uint32_t object = objects_.object_of(met.instance);
         if (!has_met(nodes_, line.last_node, object)) {
@@ -179,15 +179,6 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         narrow.clear();
     }
     return tracer.finish();
-}
-
-std::vector<HiddenPiece> hidden_by_objects(const std::vector<HiddenPiece>& pieces,
-                                           const SceneObjects& objects) {
-    std::vector<HiddenPiece> out;
-    std::ranges::copy_if(pieces, std::back_inserter(out), [&](const HiddenPiece& hidden) {
-        return !objects.is_background(hidden.object);
-    });
-    return out;
 }
 
 std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,

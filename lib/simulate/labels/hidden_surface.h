@@ -37,10 +37,6 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by);
 
-/// The pieces that objects which are no background hide.
-std::vector<HiddenPiece> hidden_by_objects(const std::vector<HiddenPiece>& pieces,
-                                           const SceneObjects& objects);
-
 /// 1 for the bins [beams, range bins] that hold hidden surface, else 0.
 std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,
                                       int beams);

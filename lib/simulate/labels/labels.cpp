@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "simulate/labels/patch_labels.h"
-#include "simulate/labels/ping_shadows.h"
+#include "simulate/labels/shadow.h"
 #include "simulate/labels/top_two.h"
 #include "simulate/visibility/coverage.h"
 
@@ -178,25 +178,51 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     return labels;
 }
 
-/// The shadows that a request needs; empty without any.
-std::optional<PingShadows> find_shadows(const TracedPing& traced, const SurfaceEchoes& echoes,
-                                        const View& view, const Scene& scene,
-                                        const SceneObjects& objects, const VisibilityEngine& engine,
-                                        const LabelRequest& request) {
-    if (!request.shadow && !request.annotations) return std::nullopt;
+/// Finds the shadows of all objects and those of objects that are no background, as far as a
+/// request needs them, from one trace of the hidden surface. `sums`: the echoes of the ping.
+void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const View& view,
+                   const Scene& scene, const SceneObjects& objects, const VisibilityEngine& engine,
+                   const LabelRequest& request, const EchoSums& sums, PingLabels& labels) {
+    if (!request.shadow && !request.annotations) return;
+    const RangeBins bins = range_bins(view);
     const bool is_bent = scene.sound_profile || !traced.motion.is_still();
     const ObjectDirections directions =
         is_bent ? ObjectDirections()
                 : ObjectDirections(request.annotated, request.surface, traced.T_world_sensor,
                                    view.range_min_m, view.range_max_m);
-    const PingShadows::Wanted wanted{.of_all = request.shadow, .of_objects = request.annotations};
-    std::vector<std::uint8_t> covered;
-    if (request.shadow && !echoes.cones.exist() && !scene.sound_profile) {
-        covered = covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
-                               traced.T_world_sensor, engine.body_poses());
+    HiddenSurface hidden =
+        find_hidden_surface(traced, echoes, view, objects, engine, directions,
+                            request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
+    ShadowFinder of_all(hidden.pieces, view);
+    const auto find = [&](ShadowFinder& finder, std::vector<std::uint8_t> covered,
+                          std::vector<std::uint16_t>& shadow) {
+        for (int j = 0; j < view.beams; ++j)
+            finder.find(j, own(covered, labels, j), sums.occupied(j), own(shadow, labels, j));
+    };
+    if (request.shadow) {
+        const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
+        find(of_all,
+             by_triangles
+                 ? covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
+                                traced.T_world_sensor, engine.body_poses())
+                 : hidden_bins(hidden.pieces, bins, view.beams),
+             labels.shadow);
     }
-    return std::optional<PingShadows>(std::in_place, wanted, traced, echoes, view, objects, engine,
-                                      directions, std::move(covered));
+    if (request.annotations) {
+        std::vector<HiddenPiece> by_objects = hidden.pieces;
+        std::erase_if(by_objects, [&](const HiddenPiece& piece) {
+            return objects.is_background(piece.object);
+        });
+        std::optional<ShadowFinder> of_objects;  // none: no background hides anything
+        if (by_objects.size() < hidden.pieces.size()) of_objects.emplace(by_objects, view);
+        find(of_objects ? *of_objects : of_all, hidden_bins(by_objects, bins, view.beams),
+             labels.object_shadow);
+    }
+    for (std::uint32_t k = 0; !request.shadow && k < hidden.visible_shares.size(); ++k) {
+        if (objects.is_background(k))
+            hidden.visible_shares[k] = std::numeric_limits<float>::quiet_NaN();
+    }
+    labels.visible_share = std::move(hidden.visible_shares);
 }
 
 PingLabels label_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
@@ -211,15 +237,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                                         .objects = request.only_objects ? &objects : nullptr},
                                        [&](const EchoBlock& block) { surfaces.add(block); });
     label_surfaces(surfaces, objects, scene.materials, request, labels);
-    std::optional<PingShadows> shadows =
-        find_shadows(traced, echoes, view, scene, objects, engine, request);
-    if (shadows) labels.visible_share = shadows->visible_shares();
-    for (int j = 0; shadows && j < view.beams; ++j) {
-        const std::span<const std::uint8_t> occupied = surfaces.sums().occupied(j);
-        if (request.shadow) shadows->find_of_all(j, occupied, own(labels.shadow, labels, j));
-        if (request.annotations)
-            shadows->find_of_objects(j, occupied, own(labels.object_shadow, labels, j));
-    }
+    label_shadows(traced, echoes, view, scene, objects, engine, request, surfaces.sums(), labels);
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,
                                 view.shape};

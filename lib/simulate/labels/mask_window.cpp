@@ -65,6 +65,9 @@ std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const Cel
         box = {box.line - more_lines, box.bin - more_bins, box.lines + 2 * more_lines,
                box.bins + 2 * more_bins};
         box.values.resize(static_cast<std::size_t>(box.lines) * box.bins);
+        box.for_each(frame, [&ids, own = id](float& value, std::size_t k) {
+            value = ids[k] == own ? 1.0F : 0.0F;
+        });
     }
     return out;
 }

@@ -57,7 +57,8 @@ struct MaskWindow {
     std::vector<int> flood(int k, float value, bool diagonal);
 };
 
-/// A window of zeros around the bins of each id but 0. Its margin is wider than twice the reach.
+/// A window around the bins of each id but 0, with ones in these bins and zeros elsewhere. Its
+/// margin is wider than twice the reach.
 std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
                                                std::span<const std::uint16_t> ids);
 

@@ -1,14 +1,226 @@
 #include "simulate/labels/patch_labels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
-#include "simulate/labels/elevation.h"
-#include "simulate/labels/height.h"
+#include "core/elementary.h"
+#include "simulate/labels/range_path.h"
+#include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// The variance of sin(theta) in a patch at one range.
+double variance_at_one_range(const EchoPatch& patch) {
+    const auto [range, d] = arrival_of(patch.position);
+    const float u = d.dot(patch.edge_u);
+    const float v = d.dot(patch.edge_v);
+    // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
+    // (dz - (z / r) dr) / r along an edge. The part that is in proportion to range does not spread
+    // at one range.
+    const double sine_u = (patch.edge_u.z() - d.z() * u) / range;
+    const double sine_v = (patch.edge_v.z() - d.z() * v) / range;
+    const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
+    const double with = sine_u * u + sine_v * v;
+    const double explained = depth_2 > 0.0 ? with * with / depth_2 : 0.0;
+    return std::max(sine_u * sine_u + sine_v * sine_v - explained, 0.0) / 3.0;
+}
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// Bins are computed in blocks of this many.
+constexpr int block = 16;
+
+/// Elevations and spreads of at most a block of bins, from the echo and its moments. Two loops
+/// without branches, so that they vectorise.
+void find_bins(const double* __restrict echo, const double* __restrict first,
+               const double* __restrict second, int count, float* __restrict elevation,
+               float* __restrict spread) {
+    std::array<float, block> sines, cosines;
+    for (int i = 0; i < count; ++i) {
+        const bool occupied = echo[i] > 0.0;
+        const double total = occupied ? echo[i] : 1.0;
+        const double sine = std::min(std::max(first[i] / total, -1.0), 1.0);
+        const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+        // d(theta) = d(sin theta) / cos(theta), limited to a half circle where cos is 0.
+        const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
+        const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
+        sines[i] = static_cast<float>(occupied ? sine : none);
+        cosines[i] = static_cast<float>(cosine);
+        spread[i] = static_cast<float>(occupied ? deviation / least : none);
+    }
+    for (int i = 0; i < count; ++i) {
+        const float angle = arctan2_float(sines[i], cosines[i]);
+        elevation[i] = std::isnan(sines[i]) ? none : angle;
+    }
+}
+
+/// Finds the elevation of the surface in the bins of some beams.
+class ElevationFinder {
+  public:
+    /// `rows`: the number of beams that are summed at once.
+    ElevationFinder(const RangeBins& bins, int rows) : sums_(rows, bins.count) {}
+
+    /// Begins the next patch.
+    void begin(const EchoPatch& patch, const RangePath& path) {
+        const Eigen::Vector3f axis = Eigen::Vector3f::UnitZ();
+        rise_m_ = patch.position.dot(axis);
+        slope_ = path.per_range.dot(axis);
+        variance_at_range_ = variance_at_one_range(patch);
+    }
+
+    /// Computes these bins of the patch.
+    void cover(const CoveredBins& covered) {
+        const auto sine_at = [&](int k) {
+            return std::clamp((rise_m_ + slope_ * covered.way[k]) / covered.range_m[k], -1.0, 1.0);
+        };
+        for (int k = 0; k < covered.whole; ++k) {
+            const double enters = sine_at(k);
+            const double leaves = sine_at(k + 1);
+            const double along = leaves - enters;
+            mean_[k] = 0.5 * (enters + leaves);
+            square_[k] = mean_[k] * mean_[k] + along * along / 12.0 + variance_at_range_;
+        }
+    }
+
+    /// Adds an echo of the patch to these bins of a row.
+    void add(std::uint32_t row, double echo, const CoveredBins& covered) {
+        const auto [to_echo, to_first, to_second] = sums_.at(row, covered);
+        double* const __restrict sum = to_echo;
+        double* const __restrict first = to_first;
+        double* const __restrict second = to_second;
+        for (int k = 0; k < covered.whole; ++k) {
+            const double part = echo * covered.share[k];
+            sum[k] += part;
+            first[k] += part * mean_[k];
+            second[k] += part * square_[k];
+        }
+    }
+
+    /// The mean elevation of the echo of each bin and its standard deviation, rad. Means are of
+    /// sin(theta), weighted with the echo. Bins without an echo are left as they are, or NaN.
+    /// Clears the row.
+    void find(std::uint32_t row, std::span<float> elevation_rad, std::span<float> spread_rad) {
+        const BinSumRows<3>::Row sums = sums_.row(row);
+        const auto [echo, first, second] = sums.of;
+        // Most blocks hold water alone and are skipped.
+        for (int from = sums.first; from < sums.last; from += block) {
+            const int count = std::min(block, sums.last - from);
+            const std::span<const double> echoes(echo + from, count);
+            if (std::ranges::all_of(echoes, [](double e) { return e == 0.0; })) continue;
+            find_bins(echo + from, first + from, second + from, count, &elevation_rad[from],
+                      &spread_rad[from]);
+        }
+        sums_.clear(row);
+    }
+
+  private:
+    /// The echo and its moments of sin(theta). Doubles, since a spread is a small difference of
+    /// squares.
+    BinSumRows<3> sums_;
+    // This patch:
+    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;
+    std::array<double, CoveredBins::at_once> mean_{}, square_{};  ///< sin(theta), by bin
+};
+
+// Surface that lies below the bottom by at most this share of its range is on it: rounding.
+constexpr double on_bottom = 1e-4;
+// The same if sound bends or the sonar moves: pieces are not flat at their true places.
+constexpr double on_bottom_where_bent = 2e-3;
+
+// Vertical share of the normal below which a face of the bottom has the height above its foot.
+constexpr float vertical = 1e-3F;
+
+/// Finds the height above the bottom of the surface in the bins of some beams.
+class HeightFinder {
+  public:
+    /// `rows`: the number of beams that are summed at once. `is_bottom`: that of the scene. Both it
+    /// and the bottom must outlive the finder.
+    HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom,
+                 std::span<const std::uint8_t> is_bottom, const TruePlaces& places)
+        : bottom_(bottom),
+          is_bottom_instance_(is_bottom),
+          places_(places),
+          up_((places.T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ())
+                  .cast<float>()),
+          sums_(rows, bins.count) {}
+
+    /// Begins the next patch. False if there is no bottom below it, so that it has no height.
+    bool begin(const EchoPatch& patch, const RangePath& path) {
+        is_bottom_ = lies_on_bottom(*patch.sample);
+        if (is_bottom_) return true;
+        const Eigen::Vector3d at = places_.of(patch.position.cast<double>());
+        const double tolerance =
+            (places_.is_measured() ? on_bottom : on_bottom_where_bent) * path.range_m;
+        std::optional<double> below = bottom_.highest_below(at, tolerance);
+        if (!below) {
+            // A wall may stand on the border of the bottom; then the bottom begins in front of it.
+            const Eigen::Vector3d before = at + tolerance * (places_.T_world_sensor.rotation *
+                                                             patch.sample->normal.cast<double>());
+            below = bottom_.highest_below(before, tolerance);
+        }
+        if (!below) return false;
+        height_m_ = at.z() - *below;
+        is_bottom_ = height_m_ < tolerance;
+        rise_m_ = patch.position.dot(up_);
+        slope_ = path.per_range.dot(up_);
+        return true;
+    }
+
+    /// Computes these bins of the patch.
+    void cover(const CoveredBins& covered) {
+        if (is_bottom_) return mean_.fill(0.0);
+        const auto height_at = [&](int k) {
+            return std::max(height_m_ + (rise_m_ + slope_ * covered.way[k]) - rise_m_, 0.0);
+        };
+        for (int k = 0; k < covered.whole; ++k)
+            mean_[k] = 0.5 * (height_at(k) + height_at(k + 1));
+    }
+
+    /// Adds an echo of the patch to these bins of a row.
+    void add(std::uint32_t row, double echo, const CoveredBins& covered) {
+        const auto [to_echo, to_height] = sums_.at(row, covered);
+        double* const __restrict sum = to_echo;
+        double* const __restrict height = to_height;
+        for (int k = 0; k < covered.whole; ++k) {
+            const double part = echo * covered.share[k];
+            sum[k] += part;
+            height[k] += part * mean_[k];
+        }
+    }
+
+    /// The mean height of the echo of each bin above the highest bottom below it. Bins without an
+    /// echo or without a bottom are left as they are. Clears the row.
+    void find(std::uint32_t row, std::span<float> height_m) {
+        const BinSumRows<2>::Row sums = sums_.row(row);
+        const auto [echo, height] = sums.of;
+        for (int i = sums.first; i < sums.last; ++i) {
+            if (echo[i] > 0.0) height_m[i] = static_cast<float>(height[i] / echo[i]);
+        }
+        sums_.clear(row);
+    }
+
+  private:
+    bool lies_on_bottom(const Sample& sample) const {
+        return sample.instance < is_bottom_instance_.size() &&
+               is_bottom_instance_[sample.instance] != 0 &&
+               std::fabs(sample.normal.dot(up_)) > vertical;
+    }
+
+    const Bottom& bottom_;
+    std::span<const std::uint8_t> is_bottom_instance_;
+    TruePlaces places_;
+    Eigen::Vector3f up_;  ///< sensor frame
+    BinSumRows<2> sums_;  ///< the echo, and the echo times the height
+    // This patch:
+    bool is_bottom_ = false;
+    double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0;
+    std::array<double, CoveredBins::at_once> mean_{};  ///< height, by bin
+};
 
 /// The finders that a request needs.
 struct PatchFinders {

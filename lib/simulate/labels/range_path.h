@@ -5,7 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "simulate/trace/arrivals.h"
 #include "simulate/trace/surface_echoes.h"
+#include "simulate/trace/taper.h"
+#include "simulate/visibility/range_extent.h"
 
 namespace sonarsim {
 
@@ -18,7 +21,25 @@ struct RangePath {
     Eigen::Vector3f per_range;  ///< the way per metre of range, where range grows fastest
 };
 
-RangePath range_path(const EchoPatch& patch);
+inline RangePath range_path(const EchoPatch& patch) {
+    const auto [range, d] = arrival_of(patch.position);
+    const float u = d.dot(patch.edge_u);
+    const float v = d.dot(patch.edge_v);
+    const RangeExtent along_u = extent_of(patch.edge_u.squaredNorm(), std::fabs(u), range);
+    const RangeExtent along_v = extent_of(patch.edge_v.squaredNorm(), std::fabs(v), range);
+    const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
+    Eigen::Vector3f path = Eigen::Vector3f::Zero();
+    if (depth_2 > 0.0) {
+        path = (u * patch.edge_u + v * patch.edge_v) / static_cast<float>(depth_2);
+    }
+    const auto [before, after] = wedge_extent(patch.wedge, u, v);
+    return {.range_m = range,
+            .before_m = before * (along_u.before + along_v.before),
+            .after_m = after * (along_u.after + along_v.after),
+            .depth_m = std::max(before, after) * (std::fabs(u) + std::fabs(v)),
+            .bend = path.squaredNorm(),
+            .per_range = path};
+}
 
 /// The length along RangePath::per_range from the centre to the range r, m. Along p + t e, where d
 /// . e = 1, the range is r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and its

@@ -32,8 +32,9 @@ SightLine line_behind(const Sample& sample, const Arrival& place, float share_u,
 }
 
 /// The number of parts, at least 1, of an edge across the line of sight: each spans the width of
-/// a line, and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of shadow
-/// are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time. Chosen there.
+/// a line, and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of
+/// shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
+/// Chosen there.
 int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const LineWidth& width) {
     constexpr float along_beam = 2.0F;
     constexpr float most = 64.0F;

@@ -21,7 +21,7 @@ struct SightLine {
     const Sample* sample;
     float share_u, share_v;
     std::uint32_t beam, last_beam;  ///< its part of the footprint covers them
-    std::uint32_t last_node = 0;  ///< the last node of its way
+    std::uint32_t last_node = 0;    ///< the last node of its way
 };
 
 /// Tells which sight lines are kept: most have nothing to find.
