@@ -1,7 +1,7 @@
 #include "simulate/calibrated/beams/beamformer.h"
 #include "simulate/calibrated/receiver/receiver_chain.h"
 #include "simulate/calibrated/speckle/scatterers.h"
-#include "support/test.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 
@@ -56,29 +56,21 @@ TEST_CASE("beams: noise has the power asked for and the correlation of the apert
     std::vector<Lanes> out(beams.beams());
     ElementNoiseOfPing noise = beams.noise_of_ping(
         {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
-    double sum = 0.0;
-    double squares = 0.0;
-    double products = 0.0;
-    double count = 0.0;
+    std::vector<double> powers, neighbours;
     for (int row = 0; row < 2000; row += lanes) {
         beams.form(nullptr, row, &noise, scratch, out.data());
         for (int j = 20; j < 235; ++j) {
             for (int lane = 0; lane < lanes; ++lane) {
-                const double p = out[j][lane];
-                sum += p;
-                squares += p * p;
-                products += p * out[j + 1][lane];
-                count += 1.0;
+                powers.push_back(out[j][lane]);
+                neighbours.push_back(out[j + 1][lane]);
             }
         }
     }
-    const double mean = sum / count;
-    const double variance = squares / count - mean * mean;
-    CHECK(std::fabs(mean - 1.0) < 0.01);
-    CHECK(std::fabs(variance - 1.0) < 0.03);
+    CHECK(std::fabs(test::mean(powers) - 1.0) < 0.01);
+    CHECK(std::fabs(std::pow(test::deviation(powers), 2.0) - 1.0) < 0.03);
     const double t = array.wavelengths / 255.0;
     const double sinc = std::sin(pi * t) / (pi * t);
-    CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
+    CHECK(std::fabs(test::correlation(powers, neighbours) - sinc * sinc) < 0.02);
 }
 
 TEST_CASE("beams: echoes between the columns have the energy of the pattern on average") {

@@ -159,14 +159,17 @@ class Variants(Sandbox):
     def test_overwrite_over_a_link(self):
         self.write("victim/1-of-1.txt", "mine")
         self.assert_renders("--set", "variants=2")
+        shutil.copy(self.out / "variant_0000/dataset.json", self.folder / "victim")
+        victim = digest(self.folder / "victim")
         for name, target in (("journal.d", "victim"), ("variant_0001/journal.d", "victim"),
-                             ("journal.d/1-of-1.txt", "victim/1-of-1.txt")):
+                             ("journal.d/1-of-1.txt", "victim/1-of-1.txt"), ("variant_0000", "victim")):
             link = self.out / name
             link.parent.mkdir(exist_ok=True)
+            shutil.rmtree(link, ignore_errors=True)
             link.symlink_to(self.folder / target)
             with self.subTest(name=name):
                 self.assert_refused(self.render("--set", "variants=2", "--overwrite"), name, "is a symbolic link")
-                self.assertEqual((self.folder / "victim/1-of-1.txt").read_text(), "mine")
+                self.assertEqual(digest(self.folder / "victim"), victim)
             link.unlink()
 
     def test_variants_with_files_of_their_own_are_rendered(self):

@@ -168,15 +168,6 @@ class Hostile(Sandbox):
             self.write(f"out/journal.d/{name}", "")
         self.assertEqual(json.loads(self.succeeds("status", "out", "--json").stdout)["state"], "interrupted")
 
-    def test_variants_behind_a_link(self):
-        self.write("victim/dataset.json", json.dumps(self.sound))
-        self.add("variants: 2\n")
-        self.assert_renders("--out", "drawn")
-        shutil.rmtree(self.folder / "drawn/variant_0000")
-        (self.folder / "drawn/variant_0000").symlink_to(self.folder / "victim")
-        self.assert_refused(self.render("--out", "drawn", "--overwrite"), "variant_0000", "is a symbolic link")
-        self.assertTrue((self.folder / "victim/dataset.json").exists())
-
 
 if __name__ == "__main__":
     unittest.main()

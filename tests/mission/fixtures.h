@@ -32,13 +32,8 @@ inline bool reads_back(const Mission& mission) {
 /// The first fault of the InputError that reading `text` ends in; "" when it does not.
 inline std::string refusal(const std::string& text,
                            const std::vector<std::string>& overrides = {}) {
-    try {
-        parse(text, overrides);
-    } catch (const InputError& error) {
-        const std::string faults = error.what();
-        return faults.substr(0, faults.find('\n'));
-    }
-    return "";
+    const std::string faults = test::fault_of([&] { parse(text, overrides); });
+    return faults.substr(0, faults.find('\n'));
 }
 
 /// An addition to a text, and its refusal without "m.yaml:": place and sentence.

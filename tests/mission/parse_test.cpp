@@ -17,12 +17,7 @@ Mission mission_with(const std::filesystem::path& folder, const std::string& sen
 }
 
 std::string refusal_of_preset(const std::filesystem::path& folder, const std::string& sensor) {
-    try {
-        mission_with(folder, sensor);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::fault_of([&] { mission_with(folder, sensor); });
 }
 
 }  // namespace

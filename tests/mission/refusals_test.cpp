@@ -122,12 +122,7 @@ TEST_CASE("a value outside its range is refused at its place") {
 
 TEST_CASE("every fault is reported at its place") {
     const auto faults = [](const std::string& text) {
-        try {
-            parse(text);
-        } catch (const InputError& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+        return test::fault_of([&] { parse(text); });
     };
     CHECK(faults(smallest_mission +
                  "    azimut_deg: 60\n    range_bins: many\n    range_min_m: -1\n"

@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "input/mission/ping_draws.h"
 #include "mission/fixtures.h"
+#include "support/statistics.h"
 
 namespace sonarsim {
 
@@ -17,15 +18,10 @@ double number(const VaryConfig& rule, std::uint32_t variant) {
 /// Mean and standard deviation of f over the draws.
 template <class Function>
 std::pair<double, double> moments(const VaryConfig& rule, Function f) {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (std::uint32_t k = 0; k < draws; ++k) {
-        const double x = f(number(rule, k));
-        sum += x;
-        squares += x * x;
-    }
-    const double mean = sum / draws;
-    return {mean, std::sqrt(squares / draws - mean * mean)};
+    std::vector<double> values;
+    for (std::uint32_t k = 0; k < draws; ++k)
+        values.push_back(f(number(rule, k)));
+    return {test::mean(values), test::deviation(values)};
 }
 
 }  // namespace

@@ -18,6 +18,17 @@ inline Sample patch_of(const Eigen::Vector3f& position, const Eigen::Vector3f& n
             .instance = 0};
 }
 
+inline double area_of(std::span<const Sample> samples) {
+    double area = 0.0;
+    for (const Sample& sample : samples)
+        area += static_cast<double>(sample.area_m2);
+    return area;
+}
+
+inline double area_of(const Samples& samples) {
+    return area_of(std::span<const Sample>(samples.items));
+}
+
 /// A square straight ahead that faces the sonar.
 inline Sample plate_ahead(double range_m, double side_m) {
     const auto half = static_cast<float>(0.5 * side_m);

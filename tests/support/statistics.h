@@ -55,10 +55,7 @@ inline double sidak(int tests) {
 }
 
 inline double mean(const std::vector<double>& x) {
-    double sum = 0.0;
-    for (const double v : x)
-        sum += v;
-    return sum / static_cast<double>(x.size());
+    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
 inline double standard_error(const std::vector<double>& x) {
@@ -70,11 +67,14 @@ inline double standard_error(const std::vector<double>& x) {
     return std::sqrt(square / (n - 1.0) / n);
 }
 
+inline double deviation(const std::vector<double>& x) {
+    return standard_error(x) * std::sqrt(static_cast<double>(x.size()));
+}
+
 /// Pearson's correlation of two lists of one length.
 inline double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const auto n = static_cast<double>(a.size());
-    const double ma = std::accumulate(a.begin(), a.end(), 0.0) / n;
-    const double mb = std::accumulate(b.begin(), b.end(), 0.0) / n;
+    const double ma = mean(a);
+    const double mb = mean(b);
     double ab = 0.0, aa = 0.0, bb = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         ab += (a[i] - ma) * (b[i] - mb);

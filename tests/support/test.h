@@ -51,6 +51,17 @@ std::string listed(const Values&... values) {
     return out;
 }
 
+/// The words of the InputError that `work` ends in; "" when it does not.
+template <class Work>
+std::string fault_of(Work work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
 }  // namespace sonarsim::test
 
 /// CAPTURE of several values.

@@ -1,6 +1,7 @@
 #include "simulate/trace/apply_maps.h"
 #include "support/draws.h"
 #include "support/mapped_floor.h"
+#include "support/patches.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -219,14 +220,9 @@ TEST_CASE("the pieces of a sample tile it, and have its area") {
         Samples cut = whole;
         apply_maps(*scene.maps, sonar.settings.view, pose, cut);
         CHECK(cut.items.size() > whole.items.size());
-        const auto area = [](std::span<const Sample> samples) {
-            double sum = 0.0;
-            for (const Sample& sample : samples)
-                sum += static_cast<double>(sample.area_m2);
-            return sum;
-        };
         for (int j = 0; j < sonar.settings.view.beams; ++j) {
-            CHECK(std::fabs(area(cut.beam(j)) - area(whole.beam(j))) < 1e-4 * area(whole.beam(j)));
+            const double area = area_of(whole.beam(j));
+            CHECK(std::fabs(area_of(cut.beam(j)) - area) < 1e-4 * area);
         }
     }
 }

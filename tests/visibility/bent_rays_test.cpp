@@ -2,7 +2,7 @@
 
 #include "simulate/visibility/make_engine.h"
 #include "simulate/water/water_ray.h"
-#include "support/test.h"
+#include "support/patches.h"
 
 using namespace sonarsim;
 
@@ -55,7 +55,6 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
     const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
     const View view = bent_view();
     const Samples samples = engine->visible_surface(view, bent_pose);
-    double area = 0.0;
     REQUIRE(samples.items.size() > 1000);
     for (const Sample& sample : samples.items) {
         const Eigen::Vector3d p = sample.position.cast<double>();
@@ -70,7 +69,6 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
         const double across = std::fabs(arc.slope() * std::sin(arc.b));
         const double share = range * range * std::cos(arc.a) / (across * arc.distance_m());
         CHECK(static_cast<double>(sample.strength) == test::approx(share * share).epsilon(2e-3));
-        area += static_cast<double>(sample.area_m2);
     }
     // dA = X dX dazimuth, and dOmega = cos(a) da dazimuth, over the view.
     double true_area = 0.0;
@@ -88,7 +86,7 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
                          std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
         }
     }
-    CHECK(area == test::approx(true_area).epsilon(0.01));
+    CHECK(test::area_of(samples) == test::approx(true_area).epsilon(0.01));
 }
 
 TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
@@ -102,18 +100,13 @@ TEST_CASE("bent rays: without a gradient they are straight, and ranges are times
     view.range_max_m *= 1500.0 / 1480.0;
     const Samples without = straight->visible_surface(view, bent_pose);
     // Every true place lies on the bottom, and the areas are about as large.
-    double area = 0.0;
     for (const Sample& sample : with.items) {
         const Eigen::Vector3d p = bent_pose.rotation * sample.position.cast<double>();
         CHECK(1500.0 / 1480.0 * p.z() == test::approx(bent_bottom_m).epsilon(1e-4));
         CHECK(sample.strength == test::approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
-        area += static_cast<double>(sample.area_m2);
     }
-    double straight_area = 0.0;
-    for (const Sample& sample : without.items)
-        straight_area += static_cast<double>(sample.area_m2);
     // The area of a patch follows from its middle, and both have patches of their own.
-    CHECK(area == test::approx(straight_area).epsilon(0.01));
+    CHECK(test::area_of(with) == test::approx(test::area_of(without)).epsilon(0.01));
 }
 
 TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line") {

@@ -1,5 +1,5 @@
 #include "simulate/visibility/make_engine.h"
-#include "support/test.h"
+#include "visibility/strips/fixtures.h"
 
 using namespace sonarsim;
 
@@ -50,14 +50,9 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
             const View view = view_of(shape);
             const Samples samples = make_engine(scene, {.type = type, .octree = {}})
                                         ->visible_surface(view, T_world_sensor);
-            double seen = 0.0;
-            for (const Sample& sample : samples.items) {
-                const double range = static_cast<double>(sample.position.norm());
-                seen += static_cast<double>(sample.area_m2) * static_cast<double>(sample.height_m) /
-                        (range * range * range);
-            }
-            CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), seen / solid_angle(view));
-            CHECK(std::fabs(seen / solid_angle(view) - 1.0) < 0.005);
+            const double share = test::filled_sr(samples) / solid_angle(view);
+            CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), share);
+            CHECK(std::fabs(share - 1.0) < 0.005);
         }
     }
 }

@@ -123,17 +123,12 @@ inline Scene load(const GltfBuilder& gltf) {
 inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
     const auto materials = written(folder, "materials.csv", test_materials);
-    try {
-        load_scene(written(folder, "x.glb", bytes), materials);
-    } catch (const InputError& error) {
-        std::string message = error.what();
-        const std::string prefix = folder.path.string() + "/";
-        for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
-            message.erase(at, prefix.size());
-        }
-        return message;
-    }
-    return "";
+    std::string message =
+        test::fault_of([&] { load_scene(written(folder, "x.glb", bytes), materials); });
+    const std::string prefix = folder.path.string() + "/";
+    for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
+        message.erase(at, prefix.size());
+    return message;
 }
 
 inline std::string load_error(const GltfBuilder& gltf) {

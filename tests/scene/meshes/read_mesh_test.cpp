@@ -87,14 +87,10 @@ Scene scene_of(const std::string& name, const std::string& bytes) {
 std::string error_of_mesh(const std::string& name, const std::string& bytes) {
     const TemporaryFolder folder;
     const std::string path = written(folder, name, bytes).string();
-    try {
-        load_scene_geometry(path);
-    } catch (const InputError& error) {
-        const std::string message = error.what();
-        REQUIRE(message.starts_with(path + ":"));
-        return message.substr(path.size() - name.size());
-    }
-    return "";
+    const std::string message = test::fault_of([&] { load_scene_geometry(path); });
+    if (message.empty()) return "";
+    REQUIRE(message.starts_with(path + ":"));
+    return message.substr(path.size() - name.size());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulate/visibility/strips/strips_engine.h"
-#include "support/test.h"
+#include "support/patches.h"
 
 namespace sonarsim::test {
 
@@ -13,15 +13,14 @@ inline Samples seen(const Scene& scene, const View& view, const Pose& pose = {})
     return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
 }
 
-inline double area_of(std::span<const Sample> samples) {
-    double area = 0.0;
-    for (const Sample& sample : samples)
-        area += static_cast<double>(sample.area_m2);
-    return area;
-}
-
-inline double area_of(const Samples& samples) {
-    return area_of(std::span<const Sample>(samples.items));
+/// The solid angle that the samples fill.
+inline double filled_sr(const Samples& samples) {
+    double sum = 0.0;
+    for (const Sample& sample : samples.items) {
+        const auto r = static_cast<double>(sample.position.norm());
+        sum += static_cast<double>(sample.area_m2 * sample.height_m) / (r * r * r);
+    }
+    return sum;
 }
 
 }  // namespace sonarsim::test

@@ -8,6 +8,7 @@
 using namespace sonarsim;
 using test::area_of;
 using test::fan_view;
+using test::filled_sr;
 using test::seen;
 
 namespace {
@@ -27,16 +28,6 @@ View cone_of_strips() {
     view.beams = 1;
     view.shape = ViewShape::cone;
     return view;
-}
-
-/// The solid angle that the samples fill.
-double filled_sr(const Samples& samples) {
-    double sum = 0.0;
-    for (const Sample& sample : samples.items) {
-        const auto r = static_cast<double>(sample.position.norm());
-        sum += static_cast<double>(sample.area_m2 * sample.height_m) / (r * r * r);
-    }
-    return sum;
 }
 
 /// The wall x = `x`, 40 m across, of n x n x 2 triangles.
@@ -86,15 +77,6 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
                   test::approx(pi * radius * radius).epsilon(error));
         }
     }
-}
-
-TEST_CASE("strips: a sphere fills the solid angle that it should") {
-    // 2 pi (1 - cos) of the cone that touches it: sin = R / D.
-    Scene scene = test::empty_scene();
-    test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
-    const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
-    for (const View& view : {fan_view(), cone_of_strips()})
-        CHECK(filled_sr(seen(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
