@@ -13,14 +13,21 @@ namespace sonarsim {
 
 namespace {
 
-constexpr const char* stock_kinds[]{
-    "anchor", "block",          "bottle",   "boulder_pile", "brick",          "bucket",
-    "buoy",   "cable",          "can",      "carton",       "chain",          "coral_head",
-    "crate",  "drag_mark",      "drum",     "frame",        "gas_cylinder",   "ghost_gear",
-    "hook",   "ladder",         "mine",     "net",          "pallet",         "panel",
-    "person", "pipe",           "plank",    "plant",        "plastic_bottle", "propeller",
-    "rope",   "shampoo_bottle", "starfish", "stone",        "tarpaulin",      "torpedo",
-    "trap",   "tyre",           "valve",    "weed",         "wheel",          "wreckage"};
+constexpr const char* stock_kinds[]{"anchor",       "block",        "bottle",
+                                    "boulder_pile", "brick",        "bucket",
+                                    "buoy",         "cable",        "can",
+                                    "carton",       "chain",        "coral_head",
+                                    "crate",        "drag_mark",    "drum",
+                                    "frame",        "gas_cylinder", "ghost_gear",
+                                    "hook",         "ladder",       "line_valve",
+                                    "mine",         "net",          "pallet",
+                                    "panel",        "person",       "pipe",
+                                    "plank",        "plant",        "plastic_bottle",
+                                    "propeller",    "rope",         "shampoo_bottle",
+                                    "starfish",     "stone",        "tarpaulin",
+                                    "torpedo",      "trap",         "tyre",
+                                    "valve",        "weed",         "wheel",
+                                    "wreckage"};
 
 /// The kinds of clutter by default, as CLUTTER of scripts/scenes/stock.
 constexpr const char* clutter_kinds[]{

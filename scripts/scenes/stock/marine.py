@@ -1,7 +1,7 @@
 """Things of ships, harbours and wars, and what grows and lies on the bottom. A function a kind."""
 import math
 
-from .household import lying, rope
+from .household import lying
 from .solids import ball, box, lathe, moved, part, resting, ring, rod, sheet, tube, turned, walk, warped
 
 
@@ -125,9 +125,7 @@ def propeller(draw):
                    (draw(-25, 25), draw(-10, 10), draw(0, 360)))
 
 
-def valve(draw):
-    """A body with flanges, a bonnet and a handwheel or a lever."""
-    r = draw(0.03, 0.1)
+def parts_of_valve(draw, r):
     flange = [(0.7 * r, -2.4 * r), (1.9 * r, -2.4 * r), (1.9 * r, -1.9 * r), (1.0 * r, -1.8 * r), (1.5 * r, -0.6 * r)]
     body = turned(lathe(flange + [(x, -z) for x, z in reversed(flange)], 24), 0, 90)
     bonnet = lathe([(1.0 * r, 0.5 * r), (1.0 * r, 1.9 * r), (0.4 * r, 2.1 * r), (0.25 * r, 3.6 * r)], 16)
@@ -138,8 +136,23 @@ def valve(draw):
                    for a in (2 * math.pi * k / 5 for k in range(5))]
     else:
         solids = [box((5 * r, 0.6 * r, 0.2 * r), (2 * r, 0, 3.5 * r))]
-    return resting([part("body", draw.one_of(["steel", "rusty_steel", "copper"]), body, bonnet), part("wheel", "steel", *solids)],
-                   (draw.one_of([0, draw(60, 110), draw(-110, -60)]), 0, draw(0, 360)))
+    return [part("body", draw.one_of(["steel", "rusty_steel", "copper"]), body, bonnet), part("wheel", "steel", *solids)]
+
+
+def pose_of_valve(draw):
+    return draw.one_of([0, draw(60, 110), draw(-110, -60)]), 0, draw(0, 360)
+
+
+def valve(draw):
+    """A body with flanges, a bonnet and a handwheel or a lever."""
+    return resting(parts_of_valve(draw, draw(0.03, 0.1)), pose_of_valve(draw))
+
+
+def line_valve(draw):
+    """A valve between two pieces of its pipe."""
+    r = draw(0.03, 0.1)
+    pipes = [rod((2.4 * side * r, 0, 0), ((2.4 + draw(1, 7)) * side * r, 0, 0), 0.7 * r, 20) for side in (-1, 1)]
+    return resting([*parts_of_valve(draw, r), part("pipe", "steel", *pipes)], pose_of_valve(draw))
 
 
 def pipe(draw):
@@ -369,4 +382,4 @@ def drag_mark(draw):
 
 
 KINDS = [anchor, block, boulder_pile, buoy, chain, coral_head, drag_mark, drum, gas_cylinder, ghost_gear, hook,
-         mine, net, pipe, plant, propeller, starfish, stone, torpedo, trap, tyre, valve, weed, wheel, wreckage]
+         line_valve, mine, net, pipe, plant, propeller, starfish, stone, torpedo, trap, tyre, valve, weed, wheel, wreckage]
