@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
-#include <ranges>
 
 #include "core/elementary.h"
 #include "core/error.h"
@@ -142,11 +142,12 @@ void check_rule(const Mission& mission, const VaryConfig& rule) {
         SonarConfig sensor;
         NumberList numbers = numbers_of(sensor, "");
         numbers.add(vehicle_section, vehicle);
-        const std::string keys = listed(numbers.list | std::views::transform(&VaryingNumber::key));
+        std::vector<std::string> keys;
+        std::ranges::transform(numbers.list, std::back_inserter(keys), &VaryingNumber::key);
         refuse("'" + printable(rule.key) +
                "' cannot be drawn for every ping; write per: variant, or one of the keys that can, "
                "the first of them below sensors.NAME: " +
-               keys);
+               listed(keys));
     }
     for (const std::string& text : extremes_of(rule)) {
         const std::optional<double> value = parse_number(text);

@@ -1,7 +1,7 @@
 #include "simulate/assembly/mission_objects.h"
 
 #include <algorithm>
-#include <ranges>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -65,10 +65,11 @@ std::size_t class_named(const Mission& mission, const SceneObjects& objects, con
     const auto found = std::ranges::find(objects.classes, name);
     if (found != objects.classes.end())
         return static_cast<std::size_t>(found - objects.classes.begin());
-    const std::string all = listed(objects.classes | std::views::transform(printable));
+    std::vector<std::string> all;
+    std::ranges::transform(objects.classes, std::back_inserter(all), printable);
     throw InputError(mission.labels.place,
                      std::string("labels.") + key + ": there is no class '" + printable(name) +
-                         "'" + did_you_mean(name, objects.classes) + "; there are: " + all);
+                         "'" + did_you_mean(name, objects.classes) + "; there are: " + listed(all));
 }
 
 /// The instances whose number is drawn, and their classes.
