@@ -46,9 +46,9 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "format": "core",
     "dataset": "core mission scene trajectory calibrated ping labels product sonar assembly format",
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
-    "job": "core mission trajectory sonar assembly dataset checks",
+    "job": "core mission trajectory visibility sonar assembly dataset checks",
     "report": "core mission scene visibility sonar assembly reference dataset checks job",
-    "preview": "core scene visibility trace ping product sonar assembly",
+    "preview": "core mission scene visibility trace ping product sonar assembly",
 }.items()}
 assert ALLOWED.keys() == DOOR_OF.keys()
 assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder])
@@ -60,7 +60,7 @@ PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["encode_ping"]],
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
-            ["run_job"], ["variants"], ["merge", "status", "verify"]],
+            ["run_job", "ping_source"], ["variants"], ["merge", "status", "verify"]],
     "calibrated": [["signal/"], ["equation/"], ["beams/", "speckle/"], ["receiver/"], ["*"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]],

@@ -5,112 +5,29 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/build_info.h"
 #include "core/error.h"
 #include "input/mission/parse.h"
-#include "output/dataset/encode_ping.h"
-#include "output/dataset/metadata.h"
 #include "run/checks/find_warnings.h"
+#include "run/job/ping_source.h"
 #include "simulate/assembly/mission_objects.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/visibility/make_engine.h"
 
 namespace py = pybind11;
 
 namespace sonarsim {
 
 namespace {
-
-/// A ping in memory, with the values that its files would hold.
-struct PingInMemory {
-    PingNumbers image;  ///< float32: polar/ [range, azimuth], or the record of the kind
-    /// Raw values and labels, by the names of their files.
-    std::vector<std::pair<std::string, PingNumbers>> arrays;
-    /// Labels that are text: the name of the file, its extension and the text.
-    std::vector<std::tuple<std::string, std::string, std::string>> texts;
-    std::string metadata;  ///< meta/NNNNNN.json
-};
-
-/// The name and the extension of a writer's file or record.
-std::filesystem::path file_of(const Writer& writer) {
-    if (const auto* record = std::get_if<PingRecord>(&writer.per_ping)) return record->file;
-    const auto& file = std::get<PingFile>(writer.per_ping);
-    return file.name + file.extension;
-}
-
-/// Takes the intensities out of `ping`.
-PingNumbers take_image(const Sonar& sonar, Ping& ping) {
-    const KindOfSonar& kind = kind_of(sonar.config.kind);
-    if (kind.has_images)
-        return make_numbers(std::move(ping.intensity), ping.range_bins, ping.beams);
-    return make_numbers(record_values(kind.record, sonar.config, ping.intensity, 0.0F));
-}
-
-/// The pings of a mission without files. They equal those of run_job(), and do not depend on which
-/// other pings are requested.
-class PingSource {
-  public:
-    /// `assembly` is that of the mission, which must outlive it.
-    PingSource(const Mission& of, Assembly assembled)
-        : mission(of), assembly(std::move(assembled)), engine_(make_engine(mission, assembly)) {
-        const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
-        for (std::size_t i = 0; i < pings.size(); ++i) {
-            plans_.push_back(plan_labels(mission, assembly, assembly.sonars[i]));
-            writers_.push_back(make_array_writers({mission, assembly, i, pings[i]}));
-        }
-    }
-    PingSource(const PingSource&) = delete;
-    PingSource& operator=(const PingSource&) = delete;
-
-    /// Any number of threads may call it at a time. The id must be one of list_pings().
-    /// std::runtime_error as brightest_pixel().
-    PingInMemory ping(const PingId& id) const {
-        RenderedPing rendered = render_at_pose(mission, assembly, *engine_, id);
-        brightest_pixel(rendered.ping, rendered.sonar->config.name, id.pose);
-        PingInMemory out;
-        finish_ping(assembly, plans_[id.sensor], rendered, [&](const FinishedPing& finished) {
-            for (const Writer& writer : writers_[id.sensor]) {
-                const std::filesystem::path file = file_of(writer);
-                if (writer.numbers)
-                    out.arrays.emplace_back(file.stem().string(), writer.numbers(finished));
-                else
-                    out.texts.emplace_back(file.stem().string(), file.extension().string(),
-                                           writer.encode(finished));
-            }
-            out.metadata = json_text(describe_ping(mission, assembly, finished));
-        });
-        out.image = take_image(*rendered.sonar, rendered.ping);
-        return out;
-    }
-
-    /// dataset.json of the dataset that run_job() would begin. InputError as make_writers().
-    std::string describe() const {
-        const Layout layout =
-            make_layout(mission, make_writers(mission, assembly), assembly.trajectory.size());
-        return json_text(describe_dataset(mission, assembly, layout));
-    }
-
-    const Mission& mission;
-    const Assembly assembly;
-
-  private:
-    std::unique_ptr<VisibilityEngine> engine_;
-    std::vector<LabelPlan> plans_;  ///< in the order of the sensors
-    std::vector<Writers> writers_;  ///< the same for raw values and labels
-};
 
 /// glTF files that the variants of a mission share.
 struct SharedModels {
@@ -136,6 +53,7 @@ class LoadedMission {
         const auto models = std::make_shared<SharedModels>();
         std::vector<std::shared_ptr<LoadedMission>> all;
         const Variants variants = variants_of(mission_, source_);
+        all.reserve(static_cast<std::size_t>(variants.size()));
         for (int i = 0; i < variants.size(); ++i)
             all.push_back(std::make_shared<LoadedMission>(variants[i], source_, models));
         return all;

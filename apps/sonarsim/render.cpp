@@ -2,7 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -12,12 +11,12 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "input/mission/variants.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "run/job/variants.h"
+#include "shard.h"
 #include "signals.h"
 
 namespace sonarsim {
@@ -26,51 +25,6 @@ namespace {
 
 constexpr const char* run_again =
     "written files are complete; run the same command again to continue";
-
-/// One part of a mission, counted from 0.
-struct Shard {
-    int index = 0;
-    int count = 1;
-};
-
-constexpr std::int64_t max_shards = 1'000'000;
-
-/// Parses "2/4" of the command line, where shards count from 1. Throws CLI::ValidationError.
-Shard parse_shard(const std::string& text) {
-    const std::size_t slash = text.find('/');
-    const auto shard = parse_integer(text.substr(0, slash));
-    const auto shards =
-        slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
-    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > max_shards) {
-        throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
-    }
-    return {static_cast<int>(*shard - 1), static_cast<int>(*shards)};
-}
-
-/// The shard of this process in a Slurm array: the k-th of its n tasks is shard k/n. Nothing
-/// outside of an array. Throws InputError when the numbers of the tasks are not evenly spaced.
-std::optional<Shard> shard_of_slurm() {
-    const auto number = [](const char* name) {
-        const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): only read
-        return text != nullptr ? parse_integer(text) : std::nullopt;
-    };
-    const auto id = number("SLURM_ARRAY_TASK_ID");
-    const auto count = number("SLURM_ARRAY_TASK_COUNT");
-    if (!id || !count) return std::nullopt;
-    const std::int64_t first = number("SLURM_ARRAY_TASK_MIN").value_or(1);
-    const std::int64_t last = number("SLURM_ARRAY_TASK_MAX").value_or(*count);
-    const std::int64_t step = *count > 1 ? (last - first) / (*count - 1) : 1;
-    const bool even = *count >= 1 && *count <= max_shards && step >= 1 && *id >= first &&
-                      last - first == step * (*count - 1) && (*id - first) % step == 0 &&
-                      (*id - first) / step < *count;
-    if (!even) {
-        throw InputError(fmt::format(
-            "task {} of a Slurm array of {} tasks from {} to {} is not a shard, since these are "
-            "not evenly spaced; submit --array=1-N, or say which shard it is with --shard I/N",
-            *id, *count, first, last));
-    }
-    return Shard{static_cast<int>((*id - first) / step), static_cast<int>(*count)};
-}
 
 struct RenderArguments {
     MissionOptions mission;

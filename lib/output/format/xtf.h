@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace sonarsim {
+
+// XTF, the eXtended Triton Format of side-scan data: Triton Imaging, "eXtended Triton Format (XTF)
+// Rev. 40". Two channels, port and starboard, of 16 bits; positions in metres.
+
+struct XtfFile {
+    std::string sonar_name;
+    float azimuth_deg = 0.0F;     ///< full angle of the swath
+    float beam_width_deg = 0.0F;  ///< beamwidth along track
+};
+
+/// A ping and the sonar's pose. The world's frame is the grid: x east, y north.
+struct XtfPing {
+    std::uint32_t number = 0;
+    double t_s = 0.0;  ///< since 1970
+    double x_m = 0.0;
+    double y_m = 0.0;
+    double depth_m = 0.0;      ///< depth below z = 0
+    double altitude_m = 0.0;   ///< 0: the bottom is not seen
+    double heading_deg = 0.0;  ///< clockwise from y
+    double pitch_deg = 0.0;    ///< bow up
+    double roll_deg = 0.0;     ///< starboard down
+    double sound_speed_m_s = 0.0;
+    double range_max_m = 0.0;
+    double seconds_per_ping = 0.0;
+};
+
+/// The header of the file, 1,024 bytes.
+std::string xtf_header(const XtfFile& file);
+
+/// The record of one ping. `row` holds port from range_max to nadir, then starboard from nadir on.
+/// The port channel keeps that order, as is usual in XTF: its last sample is at nadir.
+std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row);
+
+}  // namespace sonarsim
