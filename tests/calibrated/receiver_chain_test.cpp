@@ -32,8 +32,18 @@ CalibratedModel noisy_sounder(const ReceiverConfig& chain) {
     return calibrated_model(config, {}, chain_view(), {});
 }
 
-std::vector<float> noise_image(const ReceiverConfig& chain) {
-    return image_of_traced(noisy_sounder(chain), chain_view(), {}, {}, {3, 2, 0});
+std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping = 0) {
+    return image_of_traced(noisy_sounder(chain), chain_view(), {}, {}, {3, 2, ping});
+}
+
+/// The powers of several pings over the mean of the noise.
+std::vector<double> noise_powers(const ReceiverConfig& chain) {
+    std::vector<double> out;
+    for (std::uint32_t ping = 0; ping < 8; ++ping) {
+        for (const float power : noise_image(chain, ping))
+            out.push_back(power / 1e-10);
+    }
+    return out;
 }
 
 constexpr double bin_m = 0.05;
@@ -47,6 +57,30 @@ Reverberation tail_of(double share_db, double time_s) {
 }
 
 }  // namespace
+
+// The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n, and
+// its mean is h = 1 + 1/2 + ... + 1/n, which is divided out. The mean of two is gamma
+// distributed with shape 2.
+TEST_CASE("receiver: samples have the distributions of order statistics and means") {
+    const auto largest_of = [](int n, double h) {
+        return [n, h](double x) { return std::pow(1.0 - std::exp(-h * x), n); };
+    };
+    const auto mean_of_two = [](double x) { return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x); };
+    struct Case {
+        double samples;
+        SampleRule combine;
+        std::function<double(double)> law;
+    };
+    for (const Case& c : {Case{1.0, SampleRule::maximum, largest_of(1, 1.0)},
+                          Case{3.0, SampleRule::maximum, largest_of(3, 11.0 / 6.0)},
+                          Case{2.0, SampleRule::mean, mean_of_two}}) {
+        ReceiverConfig chain;
+        chain.samples = c.samples;
+        chain.combine = c.combine;
+        CAPTURE(c.samples);
+        CHECK(ks_p_value(noise_powers(chain), c.law) > 1e-3);
+    }
+}
 
 TEST_CASE("receiver: ringing lies where it should") {
     const std::vector<float> plain = noise_image({});
