@@ -37,9 +37,9 @@ struct InspectArguments {
 
 /// The backscattering strength in dB.
 double strength_db(const Backscatter& material, double grazing_deg) {
-    constexpr double least = 1e-40;
+    constexpr double min_power = 1e-40;
     const auto sine = static_cast<float>(sincos(radians(grazing_deg)).sin);
-    return db_of_power(std::max(least, static_cast<double>(material.at(sine))));
+    return db_of_power(std::max(min_power, static_cast<double>(material.at(sine))));
 }
 
 Json strengths_json(const MaterialTable& table, const Scattering& scattering,

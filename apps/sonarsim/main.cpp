@@ -31,9 +31,9 @@ constexpr const char* out_of_memory =
 /// Lets the C library keep freed memory. A ping allocates and frees a few megabytes; handing them
 /// back to the kernel each time and faulting them in again takes a third of the ping's time.
 void keep_freed_memory() {
-    constexpr int most = 32 << 20;  // the C library's limit
+    constexpr int max_threshold = 32 << 20;  // the C library's limit
     // NOLINTBEGIN(concurrency-mt-unsafe): there are no other threads yet
-    mallopt(M_MMAP_THRESHOLD, most);
+    mallopt(M_MMAP_THRESHOLD, max_threshold);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
     // NOLINTEND(concurrency-mt-unsafe)
 }

@@ -210,9 +210,10 @@ int render(const RenderArguments& given) {
         after.insert(after.begin(),
                      make_warning(WarningCode::no_locks, mission.output.folder.string()));
     log_outcome(summary, mission, arguments.render.files);
-    constexpr std::size_t most = 20;  // warnings of all variants that are printed
-    log_warnings(std::span(after).first(std::min(most, after.size())));
-    if (after.size() > most) spdlog::warn("and {} warnings more like these", after.size() - most);
+    constexpr std::size_t max_listed = 20;  // warnings of all variants that are printed
+    log_warnings(std::span(after).first(std::min(max_listed, after.size())));
+    if (after.size() > max_listed)
+        spdlog::warn("and {} warnings more like these", after.size() - max_listed);
     append(warnings, after);
     if (arguments.log.json) {
         print_json(summary, mission, warnings);

@@ -19,19 +19,19 @@ namespace sonarsim {
 namespace {
 
 /// Instances with their share of the visible surface, the largest first.
-std::vector<std::pair<std::string, double>> visible_most(const SonarSurvey& found,
-                                                         const Scene& scene) {
-    constexpr std::size_t most = 5;
+std::vector<std::pair<std::string, double>> max_visible(const SonarSurvey& found,
+                                                        const Scene& scene) {
+    constexpr std::size_t max_listed = 5;
     const double all = std::reduce(found.visible_m2.begin(), found.visible_m2.end());
-    std::vector<std::pair<std::string, double>> seen;
+    std::vector<std::pair<std::string, double>> visible;
     for (std::size_t i = 0; i < found.visible_m2.size(); ++i) {
         if (found.visible_m2[i] > 0.0)
-            seen.emplace_back(scene.instances[i], found.visible_m2[i] / all);
+            visible.emplace_back(scene.instances[i], found.visible_m2[i] / all);
     }
-    std::ranges::stable_sort(seen,
+    std::ranges::stable_sort(visible,
                              [](const auto& a, const auto& b) { return a.second > b.second; });
-    if (seen.size() > most) seen.resize(most);
-    return seen;
+    if (visible.size() > max_listed) visible.resize(max_listed);
+    return visible;
 }
 
 /// The objects that are no background with the pings that see them, the rarest first.
@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, std::size_t>> pings_in_view(const SonarSurvey
                                                                const SceneObjects& objects) {
     std::vector<std::pair<std::string, std::size_t>> all;
     for (std::uint32_t k = 0; k < objects.objects.size(); ++k) {
-        if (!objects.is_background(k)) all.emplace_back(objects.objects[k].name, found.seen[k]);
+        if (!objects.is_background(k)) all.emplace_back(objects.objects[k].name, found.visible[k]);
     }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second; });
     return all;
@@ -47,14 +47,15 @@ std::vector<std::pair<std::string, std::size_t>> pings_in_view(const SonarSurvey
 
 /// A line for the objects, "" if there are none.
 std::string in_view_text(const SonarSurvey& found, const SceneObjects& objects) {
-    constexpr std::size_t most = 12;
+    constexpr std::size_t max_listed = 12;
     const auto all = pings_in_view(found, objects);
     if (all.empty()) return "";
     std::string text;
-    for (std::size_t k = 0; k < std::min(all.size(), most); ++k)
+    for (std::size_t k = 0; k < std::min(all.size(), max_listed); ++k)
         text += fmt::format("{}{} {}", k == 0 ? "" : ", ", printable(all[k].first), all[k].second);
-    if (all.size() > most)
-        text += fmt::format(", {} others {} or more", all.size() - most, all[most].second);
+    if (all.size() > max_listed)
+        text +=
+            fmt::format(", {} others {} or more", all.size() - max_listed, all[max_listed].second);
     return result_line("", fmt::format("in view in {} pings: {}", found.pings, text));
 }
 
@@ -87,14 +88,14 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene, const Scen
     if (found.first_echo_m.empty()) return text;
     text += line(fmt::format("first echo at {}, last at {}", text_of(found.first_echo_m, "m"),
                              text_of(found.last_echo_m, "m")));
-    std::string seen;
-    for (const auto& [name, share] : visible_most(found, scene)) {
-        constexpr double least = 0.005;
-        if (share < least) break;
-        seen += fmt::format("{}{} ({:.0f} %)", seen.empty() ? "" : ", ", printable(name),
-                            100.0 * share);
+    std::string visible;
+    for (const auto& [name, share] : max_visible(found, scene)) {
+        constexpr double min_share = 0.005;
+        if (share < min_share) break;
+        visible += fmt::format("{}{} ({:.0f} %)", visible.empty() ? "" : ", ", printable(name),
+                               100.0 * share);
     }
-    text += line("sees most of " + seen);
+    text += line("sees most of " + visible);
     text += in_view_text(found, objects);
     return text +
            line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the occupied bins white",
@@ -102,11 +103,11 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene, const Scen
 }
 
 std::string readings_text(const SceneConfig& scene) {
-    constexpr std::size_t most = 5;
+    constexpr std::size_t max_listed = 5;
     std::vector<std::string> readings = readings_of(scene);
-    if (readings.size() > most) {
-        readings[most] = fmt::format("and {} files more", readings.size() - most);
-        readings.resize(most + 1);
+    if (readings.size() > max_listed) {
+        readings[max_listed] = fmt::format("and {} files more", readings.size() - max_listed);
+        readings.resize(max_listed + 1);
     }
     std::string text;
     for (const std::string& reading : readings)
@@ -115,9 +116,9 @@ std::string readings_text(const SceneConfig& scene) {
 }
 
 Json survey_json(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects) {
-    Json seen = Json::object();
-    for (const auto& [name, share] : visible_most(found, scene))
-        seen[name] = share;
+    Json visible = Json::object();
+    for (const auto& [name, share] : max_visible(found, scene))
+        visible[name] = share;
     Json in_view = Json::object();
     for (const auto& [name, pings] : pings_in_view(found, objects))
         in_view[name] = pings;
@@ -127,7 +128,7 @@ Json survey_json(const SonarSurvey& found, const Scene& scene, const SceneObject
             {"occupied_share", found.occupied_share},
             {"first_echo_m", json_of(found.first_echo_m)},
             {"last_echo_m", json_of(found.last_echo_m)},
-            {"seen_most", seen},
+            {"seen_most", visible},
             {"in_view", in_view},
             {"signal", found.signal},
             {"noise", found.noise},
@@ -140,7 +141,7 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
         return scene.sound_profile
                    ? result_line("", "error not measured: water.profile bends the sound")
                    : "";
-    const double unknown = error->least_measurable();
+    const double unknown = error->min_measurable();
     const std::string limit =
         fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
     const std::optional<PingError> worst = error->worst();

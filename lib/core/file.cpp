@@ -31,10 +31,10 @@ std::string hint_of_path(const std::filesystem::path& path) {
     std::error_code absent;
     if (!std::filesystem::is_directory(folder, absent))
         return "; there is no folder " + folder.string();
-    constexpr std::size_t most = 1000;
+    constexpr std::size_t max_names = 1000;
     std::vector<std::string> names;
     std::filesystem::directory_iterator entry(folder, absent);
-    for (; entry != std::filesystem::directory_iterator() && names.size() < most;
+    for (; entry != std::filesystem::directory_iterator() && names.size() < max_names;
          entry.increment(absent))
         names.push_back(entry->path().filename().string());
     std::ranges::sort(names);

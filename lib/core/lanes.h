@@ -84,9 +84,9 @@ struct Floats8 {
     /// a b - c, rounded once.
     friend Floats8 fms(Floats8 a, Floats8 b, Floats8 c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }
     /// The lesser; b where one of them is NaN.
-    friend Floats8 least(Floats8 a, Floats8 b) { return _mm256_min_ps(a.v, b.v); }
+    friend Floats8 min(Floats8 a, Floats8 b) { return _mm256_min_ps(a.v, b.v); }
     /// The greater; b where one of them is NaN.
-    friend Floats8 greatest(Floats8 a, Floats8 b) { return _mm256_max_ps(a.v, b.v); }
+    friend Floats8 max(Floats8 a, Floats8 b) { return _mm256_max_ps(a.v, b.v); }
     friend Floats8 absolute(Floats8 a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v); }
     friend Floats8 sqrt(Floats8 a) { return _mm256_sqrt_ps(a.v); }
     friend Floats8 floor(Floats8 a) { return _mm256_floor_ps(a.v); }

@@ -29,19 +29,20 @@ double total_memory(const std::filesystem::path& root) {
 /// group without a limit has "max".
 double group_limit(const std::filesystem::path& root) {
     std::ifstream groups(root / "proc/self/cgroup");
-    double least = no_limit;
+    double min_bytes = no_limit;
     for (std::string line; std::getline(groups, line);) {
         if (!line.starts_with("0::/")) continue;
         const std::filesystem::path top = root / "sys/fs/cgroup";
         std::filesystem::path group = top / line.substr(4);
         while (true) {
             double bytes = 0.0;
-            if (std::ifstream(group / "memory.max") >> bytes) least = std::min(least, bytes);
+            if (std::ifstream(group / "memory.max") >> bytes)
+                min_bytes = std::min(min_bytes, bytes);
             if (group == top || !group.has_relative_path()) break;
             group = group.parent_path();
         }
     }
-    return least;
+    return min_bytes;
 }
 
 double process_limit() {

@@ -77,22 +77,22 @@ TEST_CASE("assemble: look_at has an object at the distance, bearing and height t
     };
     // The middles and the lowest points of the two objects, scaled by 0.01.
     const Eigen::Vector3d near(5.05, 6, -0.1), far(40.05, -6, 1.9);
-    int of_far = 0;
+    int far_count = 0;
     for (const TimedPose& pose : poses("objects")) {
         const Eigen::Vector3d at = pose.T_world_vehicle.translation;
         const bool is_far = (at - far).head<2>().norm() < (at - near).head<2>().norm();
-        of_far += is_far;
+        far_count += is_far;
         const Eigen::Vector3d to = (is_far ? far : near) - at;
-        const Eigen::Vector3d seen = pose.T_world_vehicle.rotation.conjugate() * to;
-        const double bearing_deg = std::atan2(seen.y(), seen.x()) * 180.0 / 3.141592653589793;
+        const Eigen::Vector3d visible = pose.T_world_vehicle.rotation.conjugate() * to;
+        const double bearing_deg = std::atan2(visible.y(), visible.x()) * 180.0 / 3.141592653589793;
         CHECK(std::abs(to.head<2>().norm() - 5.5) < 3.501);
         CHECK(std::abs(bearing_deg + 10.0) < 20.001);
         CHECK(std::abs(-to.z() - 2.0) < 1.001);
         CHECK(std::abs(at.y()) <= 10.0);  // within the bounds of the scene
     }
     // 200 fair draws have 60 to 140 of one kind but for one in 10^8; bounds favour the nearer.
-    CHECK(of_far > 40);
-    CHECK(of_far < 160);
+    CHECK(far_count > 40);
+    CHECK(far_count < 160);
     for (const TimedPose& pose : poses("post"))
         CHECK((pose.T_world_vehicle.translation - far).head<2>().norm() < 9.01);
     CHECK_THROWS_WITH_AS(poses("posts"),
@@ -117,10 +117,11 @@ TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fa
         for (const TimedPose& pose : assembly.trajectory) {
             const Pose& T = pose.T_world_vehicle;
             const bool is_far = T.translation.x() > 20.0;
-            const Eigen::Vector3d seen =
+            const Eigen::Vector3d visible =
                 (T.rotation * mount).conjugate() * ((is_far ? far : near) - T.translation);
-            CHECK(std::abs(std::atan2(seen.y(), seen.x()) + radians(3)) < radians(6.001));
-            CHECK(std::abs(std::asin(seen.z() / seen.norm()) - radians(3.5)) < radians(1.501));
+            CHECK(std::abs(std::atan2(visible.y(), visible.x()) + radians(3)) < radians(6.001));
+            CHECK(std::abs(std::asin(visible.z() / visible.norm()) - radians(3.5)) <
+                  radians(1.501));
         }
     }
 }

@@ -93,7 +93,7 @@ TEST_CASE("ground in range: the mounts that are drawn for pings reach as far") {
     mission.vary = {rule};
     const std::vector<Sonar> sonars{make_sonar(mission.sensors[0], {})};
     const Trajectory vehicle = along_x();
-    const Eigen::AlignedBox2d seen = ground_in_range(mission, sonars, vehicle, 1.0);
+    const Eigen::AlignedBox2d visible = ground_in_range(mission, sonars, vehicle, 1.0);
     Eigen::AlignedBox2d places;
     for (std::uint32_t k = 0; k < vehicle.size(); ++k) {
         const SonarAtPose then(mission, sonars[0], k);
@@ -101,8 +101,8 @@ TEST_CASE("ground in range: the mounts that are drawn for pings reach as far") {
             sensor_pose(*then, vehicle[k].T_world_vehicle, k).translation.head<2>()));
     }
     CHECK(places.sizes().y() > 1.0);
-    CHECK((seen.min() - places.min() - Eigen::Vector2d(-10, -10)).norm() < 1e-9);
-    CHECK((seen.max() - places.max() - Eigen::Vector2d(10, 10)).norm() < 1e-9);
+    CHECK((visible.min() - places.min() - Eigen::Vector2d(-10, -10)).norm() < 1e-9);
+    CHECK((visible.max() - places.max() - Eigen::Vector2d(10, 10)).norm() < 1e-9);
 }
 
 TEST_CASE("ground in range: the last group of beams looks from further on") {
@@ -115,7 +115,7 @@ TEST_CASE("ground in range: the last group of beams looks from further on") {
     std::vector<Sonar> sonars{make_sonar(config, {})};
     const Trajectory vehicle = along_x();
     add_ping_motions(mission, vehicle, sonars);
-    const Eigen::AlignedBox2d seen = ground_in_range(mission, sonars, vehicle, 1.0);
-    CHECK(seen.min().x() == test::approx(-10.0));
-    CHECK(seen.max().x() == test::approx(7.0 + 1.2 + 10.0));
+    const Eigen::AlignedBox2d visible = ground_in_range(mission, sonars, vehicle, 1.0);
+    CHECK(visible.min().x() == test::approx(-10.0));
+    CHECK(visible.max().x() == test::approx(7.0 + 1.2 + 10.0));
 }

@@ -79,11 +79,11 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
     for (const double side_lobe_db : {-13.3, -26.8, -42.0}) {
         CAPTURE(side_lobe_db);
         const LineArray line = line_array(radians(4.0), side_lobe_db);
-        const double of_line =
+        const double line_integral =
             2.0 * pi * over_sines([&](double u) { return std::pow(line_pattern(line, u), 2.0); });
-        CHECK(std::fabs(db_of_power(line_directivity(line) * of_line / (4.0 * pi))) < 0.05);
+        CHECK(std::fabs(db_of_power(line_directivity(line) * line_integral / (4.0 * pi))) < 0.05);
         const LineArray across = line_array(radians(20.0), side_lobe_db);
-        const double of_rectangle = over_sines([&](double u) {
+        const double rectangle_integral = over_sines([&](double u) {
             const double along = std::pow(line_pattern(line, u), 2.0);
             double sum = 0.0;
             for (int k = 0; k < 400; ++k) {  // over the angle whose sine is v, over its part
@@ -94,7 +94,7 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
             }
             return along * sum;
         });
-        CHECK(std::fabs(db_of_power(rectangle_directivity(line, across) * of_rectangle /
+        CHECK(std::fabs(db_of_power(rectangle_directivity(line, across) * rectangle_integral /
                                     (4.0 * pi))) < 0.2);
     }
     for (const double width_deg : {3.0, 7.0, 15.0}) {

@@ -8,7 +8,7 @@ using namespace sonarsim;
 
 namespace {
 
-Material of_grain_size(double phi) {
+Material grain_size_material(double phi) {
     Material material{.name = "bed"};
     material.grain_phi = phi;
     return material;
@@ -69,7 +69,7 @@ constexpr std::array<Curve, 9> at_400_khz{
 
 void check_curves(const std::array<Curve, 9>& curves, double frequency_hz) {
     for (const Curve& curve : curves) {
-        const Backscatter bed = scattering_at(of_grain_size(curve.phi), frequency_hz);
+        const Backscatter bed = scattering_at(grain_size_material(curve.phi), frequency_hz);
         for (std::size_t i = 0; i < grazing_deg.size(); ++i) {
             CAPTURE_ALL(curve.phi, grazing_deg[i]);
             const double expected =
@@ -120,7 +120,7 @@ Material random_bed(std::mt19937& random) {
     const auto by_decades = [&](double low, double high) {
         return std::pow(10.0, within(low, high));
     };
-    Material material = of_grain_size(within(-10.0, 9.0));
+    Material material = grain_size_material(within(-10.0, 9.0));
     if (within(0.0, 1.0) < 0.3) return material;
     material.grain_phi.reset();
     material.density_kg_m3 = by_decades(-9.0, 9.0);
@@ -152,7 +152,7 @@ TEST_CASE("sea bed: sediments agree with the table of the report from 10 degrees
                            Row{1.5, 1e4, {-38.8, -30.9, -24.4, -22.6, -20.4, -13.2, 2.6}},
                            Row{-1.0, 3e4, {-28.1, -22.1, -18.9, -16.5, -13.7, -9.9, -7.8}}}) {
         const Backscatter bed =
-            scattering_at(of_grain_size(row.phi), row.frequency_hz, {1000.0, 1528.0});
+            scattering_at(grain_size_material(row.phi), row.frequency_hz, {1000.0, 1528.0});
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
             CAPTURE_ALL(row.phi, row.frequency_hz, angles_deg[i]);
             CHECK(std::fabs(db_at(bed, angles_deg[i]) - row.strength_db[i]) < 1.7);
@@ -205,7 +205,7 @@ TEST_CASE("sea bed: the Kirchhoff part sends back a quarter of what is reflected
         }
     }
     // The peak of the smoothest is far narrower than an entry of the table.
-    Material smooth = of_grain_size(5.5);
+    Material smooth = grain_size_material(5.5);
     for (const double w2_cm4 : {1e-3, 1e-5, 1e-7, 1e-9}) {
         for (const double exponent : {2.5, 3.25, 3.8}) {
             for (const double frequency_hz : {1e3, 1e4, 1e5, 1e6}) {

@@ -91,11 +91,11 @@ TEST_CASE("specular echoes: a mirror that shows a piece where it is doubles its 
         const auto one = image_of(direct_echoes_alone);
         const auto two = image_of(multipath_alone);
         REQUIRE(total(one) > 0.0);
-        const float most = *std::ranges::max_element(one);
+        const float peak = *std::ranges::max_element(one);
         float worst = 0.0F;
         for (std::size_t i = 0; i < one.size(); ++i)
             worst = std::max(worst, std::fabs(two[i] - 2.0F * 0.4F * one[i]));
-        CHECK(worst <= 1e-4F * most);
+        CHECK(worst <= 1e-4F * peak);
     }
 }
 
@@ -145,10 +145,10 @@ TEST_CASE("specular echoes: a plate over a floor that is a mirror has the level 
                 const double s = std::sqrt(x * x + y * y + below * below);
                 const double sine_r = (ceiling ? z : x) / r;
                 const double sine_s = (ceiling ? -below : x) / s;
-                const double of_r = sine_r * pattern(y, z, r) / (r * r);
-                const double of_s = sine_s * pattern(y, below, s) / (s * s);
-                direct += of_r * of_r * std::exp(-loss * r);
-                specular += 2.0 * reflection * of_r * of_s * std::exp(-0.5 * loss * (r + s));
+                const double echo_r = sine_r * pattern(y, z, r) / (r * r);
+                const double echo_s = sine_s * pattern(y, below, s) / (s * s);
+                direct += echo_r * echo_r * std::exp(-loss * r);
+                specular += 2.0 * reflection * echo_r * echo_s * std::exp(-0.5 * loss * (r + s));
             }
         }
         const auto energy = [&](const Terms& terms) {
@@ -179,10 +179,10 @@ TEST_CASE("specular echoes: multipath darkens no bin, and has its mean whatever 
         const auto alone = image_of(sonar, multipath_alone, 0);
         const auto with = image_of(sonar, without_random_terms, 0);
         // The filter of powers swings below 0 next to a glint, by some thousandths of it.
-        float most_lost = 0.0F;
+        float max_lost = 0.0F;
         for (std::size_t k = 0; k < with.size(); ++k)
-            most_lost = std::max(most_lost, without[k] - with[k]);
-        CHECK(most_lost < 1e-2F * *std::ranges::max_element(alone));
+            max_lost = std::max(max_lost, without[k] - with[k]);
+        CHECK(max_lost < 1e-2F * *std::ranges::max_element(alone));
         CHECK(std::fabs(total(with) / (total(without) + total(alone)) - 1.0) < 1e-3);
         CHECK(total(alone) > 0.02 * total(without));
 
@@ -258,11 +258,11 @@ TEST_CASE("second bottom echo: that of a side-scan sonar begins at 2 h + d") {
         render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}},
                     {.seed = 1}, multipath_alone);
     const double bin_m = sonar.settings.view.bin_m();
-    const float most = *std::ranges::max_element(ping.intensity);
-    REQUIRE(most > 0.0F);
+    const float peak = *std::ranges::max_element(ping.intensity);
+    REQUIRE(peak > 0.0F);
     for (const int side : {0, 1}) {
         int first = 0;
-        while (first < ping.range_bins && ping.at(first, side) < 1e-3F * most)
+        while (first < ping.range_bins && ping.at(first, side) < 1e-3F * peak)
             ++first;
         const double range = sonar.settings.view.range_min_m + first * bin_m;
         CHECK(range > 2.0 * h + d - 4.0 * bin_m);

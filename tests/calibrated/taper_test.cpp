@@ -46,7 +46,7 @@ std::map<std::array<std::int32_t, 3>, int> cells_on(const std::vector<Sample>& s
     // All of one size.
     const ScattererCells cells{.min_edge_m = 0.02F,
                                .edge_per_root_range = 0.01F,
-                               .greatest_depth_m = 0.02F,
+                               .max_depth_m = 0.02F,
                                .width_rad = 0.001F};
     std::map<std::array<std::int32_t, 3>, int> out;
     Scatterers block;

@@ -76,11 +76,11 @@ void apply_drawn_texels(PlateScene& plate, double texel_m, Draws& draws) {
     const auto factor = [&](int, int) {
         return static_cast<float>(std::pow(10.0, static_cast<double>(draws.between(0.0F, 1.2F))));
     };
-    auto of_materials = material_texels(frame, {0, 1}, bright);
+    auto materials = material_texels(frame, {0, 1}, bright);
     // They lie on the plate, not on the floor.
     const std::vector<char> on{1, 0};
     plate.scene.maps =
-        std::make_shared<const GroundMaps>(std::move(of_materials), strengths(frame, factor), on);
+        std::make_shared<const GroundMaps>(std::move(materials), strengths(frame, factor), on);
 }
 
 }  // namespace

@@ -38,17 +38,17 @@ TEST_CASE("near field: on the axis of an array without taper, Fresnel's integral
 // wide one.
 TEST_CASE("near field: the table of a long array is the pattern") {
     struct Case {
-        double side_lobe_db, frequency_hz, most_sine;
+        double side_lobe_db, frequency_hz, max_sine;
     };
     for (const Case& c : {Case{-13.3, 9e5, 0.035}, Case{-20.0, 1e6, sincos(radians(80.0)).sin}}) {
         const LineArray array = line_array(radians(0.1), c.side_lobe_db);
         const double wavelength = 1480.0 / c.frequency_hz;
-        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 0.5, c.most_sine);
+        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 0.5, c.max_sine);
         for (const double range : {1.0, 3.0, 10.0, 200.0}) {
             double peak = 0.0;
             double worst = 0.0;
             for (double u = -0.98; u < 0.98; u += 0.0337) {
-                for (const double at : {u * c.most_sine, 0.03 * u}) {
+                for (const double at : {u * c.max_sine, 0.03 * u}) {
                     const std::complex<double> one_way =
                         unfocused_pattern(array, at, wavelength, 1.0 / range);
                     const std::complex<double> entry =
@@ -57,7 +57,7 @@ TEST_CASE("near field: the table of a long array is the pattern") {
                     worst = std::max(worst, std::abs(entry - one_way * one_way));
                 }
             }
-            CAPTURE_ALL(c.most_sine, range);
+            CAPTURE_ALL(c.max_sine, range);
             CHECK(worst < 0.05 * peak);
         }
     }
@@ -83,12 +83,12 @@ TEST_CASE("line array: width and side lobe are those asked for") {
 
 TEST_CASE("pulse: the half-power widths of its spline, as the documents have them") {
     struct Width {
-        double of_pulse, of_spline;  // bins
+        double pulse, spline;  // bins
     };
     for (const Width& w : {Width{0.1, 0.47}, Width{0.5, 0.52}, Width{1.0, 0.67}, Width{1.5, 1.13},
                            Width{2.0, 1.87}, Width{3.0, 2.87}, Width{5.0, 4.92}}) {
-        CAPTURE(w.of_pulse);
-        const RangeTaps taps = range_taps(w.of_pulse, -30.0, false);
+        CAPTURE(w.pulse);
+        const RangeTaps taps = range_taps(w.pulse, -30.0, false);
         const auto power_at = [&](double x) {
             const auto k = static_cast<std::size_t>(x);
             const float* const tap = taps.taps.data() + taps.reach + k;
@@ -99,7 +99,7 @@ TEST_CASE("pulse: the half-power widths of its spline, as the documents have the
         double half = 0.0;
         while (power_at(half) > 0.5 * power_at(0.0))
             half += 1e-3;
-        CHECK(std::fabs(2.0 * half - w.of_spline) < 0.01);
-        if (w.of_pulse >= 2.0) CHECK(std::fabs(std::sqrt(power_at(0.0)) - 1.0) < 0.1);
+        CHECK(std::fabs(2.0 * half - w.spline) < 0.01);
+        if (w.pulse >= 2.0) CHECK(std::fabs(std::sqrt(power_at(0.0)) - 1.0) < 0.1);
     }
 }

@@ -156,13 +156,13 @@ TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
         const double range_m = 2.05 + 0.1 * row;
         CAPTURE(range_m);
         const double whole = expected_power(model, 5.78 / (ka * ka), range_m);
-        const double of_layer = (layer[row] - floor[row]) / whole;
-        const double of_all = (all[row] - floor[row]) / whole;
-        if (range_m < 4.5 || (range_m > 8.9 && range_m < 14.0)) CHECK(of_layer < 0.01);
-        if (range_m > 5.6 && range_m < 7.5) CHECK(of_layer == test::approx(1.0).epsilon(0.03));
+        const double layer_share = (layer[row] - floor[row]) / whole;
+        const double all_share = (all[row] - floor[row]) / whole;
+        if (range_m < 4.5 || (range_m > 8.9 && range_m < 14.0)) CHECK(layer_share < 0.01);
+        if (range_m > 5.6 && range_m < 7.5) CHECK(layer_share == test::approx(1.0).epsilon(0.03));
         // The floor is met from 15 m on the axis to 15.2 m at 9 degrees.
-        if (range_m < 14.0) CHECK(of_all == test::approx(1.0).epsilon(0.02));
-        if (range_m > 16.0) CHECK(of_all < 0.02);
+        if (range_m < 14.0) CHECK(all_share == test::approx(1.0).epsilon(0.02));
+        if (range_m > 16.0) CHECK(all_share < 0.02);
     }
 }
 

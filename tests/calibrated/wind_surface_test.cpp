@@ -74,16 +74,16 @@ TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
     const auto integral = [&](double wind_m_s) {
         double sum = 0.0;
         constexpr int steps = 20000;
-        const double most = radians(30.0);
+        const double max_theta = radians(30.0);
         for (int k = 0; k < steps; ++k) {
-            const double theta = most * (k + 0.5) / steps;
+            const double theta = max_theta * (k + 0.5) / steps;
             const double r = 10.0 / std::cos(theta);
             const double pattern = piston_pattern(scale * std::sin(theta));
             const double dr = 10.0 * std::sin(theta) / std::pow(std::cos(theta), 2);
             const double absorbed =
                 power_of_db(-2.0 * calibrated_model_of(sonar).absorption_db_per_m * r);
             sum += wind_surface_section(0.5 * pi - theta, wind_m_s, 1e5) * std::pow(pattern, 4) *
-                   2.0 * pi * dr / std::pow(r, 3) * absorbed * most / steps;
+                   2.0 * pi * dr / std::pow(r, 3) * absorbed * max_theta / steps;
         }
         return sum;
     };

@@ -3,7 +3,7 @@ a small mission of a box, from a hundredth of a millimetre to the size of the Ea
 hang, no pixel that is not finite, the same bytes on one thread and on two, and a refusal has a place for each fault.
 
 RANDOM_MISSIONS is their number and RANDOM_SEED names the set; mission I alone, with its files kept: RANDOM_ONLY=I. A
-mission that needs more than MOST_CPU_S of processor time or MOST_MEMORY is no fault where `validate` has said so."""
+mission that needs more than MAX_CPU_S of processor time or MAX_MEMORY is no fault where `validate` has said so."""
 import json
 import math
 import os
@@ -23,11 +23,11 @@ from sandbox import SANITIZED, SONARSIM, box_gltf, numbers_of
 MISSIONS = int(os.environ.get("RANDOM_MISSIONS", "15" if SANITIZED else "40"))
 SEED = os.environ.get("RANDOM_SEED", "1")
 ONLY = os.environ.get("RANDOM_ONLY")
-MOST_CPU_S = 300 if SANITIZED else 60 if MISSIONS > 100 else 10
-LONGEST_S = max(600, 10 * MOST_CPU_S)
+MAX_CPU_S = 300 if SANITIZED else 60 if MISSIONS > 100 else 10
+LONGEST_S = max(600, 10 * MAX_CPU_S)
 # What takes longer is not rendered again on one thread.
-MOST_TWICE_S = 600 if MISSIONS > 100 else 1
-MOST_MEMORY = 6 << 30
+MAX_TWICE_S = 600 if MISSIONS > 100 else 1
+MAX_MEMORY = 6 << 30
 
 PLACE = re.compile(r"error: (mission\.json|materials\.csv|scene\.gltf|path\.csv"
                    r"|/[^ ]*\.(json|csv|gltf)|sensor '\w+'|[a-z_]+(\.[a-z_]+)*)\b")
@@ -148,7 +148,7 @@ def check_dataset(out):
 
 def limit_memory():
     if not SANITIZED:
-        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
 
 
 def is_said_before(folder):
@@ -161,13 +161,13 @@ def is_said_before(folder):
     seconds = sum(s["seconds_per_ping"] * s["pings"] for s in found.get("sensors", {}).values()
                   if s["seconds_per_ping"] is not None)
     too_large = any(warning["number"] == "W26" for warning in found.get("warnings", []))
-    return too_large or seconds > MOST_CPU_S / 3
+    return too_large or seconds > MAX_CPU_S / 3
 
 
 def run(folder, threads=2):
-    """Exit code, what was said, and seconds; the code is None after LONGEST_S, and SIGXCPU ends it after MOST_CPU_S."""
+    """Exit code, what was said, and seconds; the code is None after LONGEST_S, and SIGXCPU ends it after MAX_CPU_S."""
     def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (MOST_CPU_S, MOST_CPU_S + 5))
+        resource.setrlimit(resource.RLIMIT_CPU, (MAX_CPU_S, MAX_CPU_S + 5))
         limit_memory()
 
     start = time.monotonic()
@@ -194,7 +194,7 @@ def check(folder):
     if code == 0:
         assert not errors, stderr
         check_dataset(folder / "out")
-        if seconds < MOST_TWICE_S:
+        if seconds < MAX_TWICE_S:
             (folder / "out").rename(folder / "two_threads")
             code, stderr, _ = run(folder, threads=1)
             assert code == 0, stderr

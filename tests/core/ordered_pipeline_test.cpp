@@ -33,15 +33,15 @@ TEST_CASE(
         std::atomic<bool> stop = false;
         std::atomic<std::size_t> begun = 0;
         std::atomic<std::size_t> alive = 0;
-        std::atomic<std::size_t> most = 0;
+        std::atomic<std::size_t> max_running = 0;
         std::vector<std::string> results;
         ordered_pipeline(
             count, in_flight, stop,
             [&](std::size_t i) {
                 ++begun;
                 const std::size_t now = ++alive;
-                std::size_t seen = most;
-                while (seen < now && !most.compare_exchange_weak(seen, now)) {
+                std::size_t visible = max_running;
+                while (visible < now && !max_running.compare_exchange_weak(visible, now)) {
                 }
                 return work_on(i);
             },
@@ -56,7 +56,7 @@ TEST_CASE(
         CHECK(results.size() <= stop_after + in_flight);
         for (std::size_t i = 0; i < results.size(); ++i)
             REQUIRE(results[i] == std::to_string(i));
-        CHECK(most <= in_flight);
+        CHECK(max_running <= in_flight);
     }
 }
 

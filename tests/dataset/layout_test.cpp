@@ -52,9 +52,9 @@ TEST_CASE("metadata: the apex of a fan, and the numbers of a ping") {
     const TracedPing traced;
     const Ping ping;
     const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
-    const Json of_ping = Json::parse(json_text(describe_ping(mission, assembly, finished)));
-    CHECK(of_ping.at("time_s") == test::approx(0.3));
-    CHECK(of_ping.at("clipped_pixels") == 13);
+    const Json described = Json::parse(json_text(describe_ping(mission, assembly, finished)));
+    CHECK(described.at("time_s") == test::approx(0.3));
+    CHECK(described.at("clipped_pixels") == 13);
 }
 
 TEST_CASE("metadata: numbers are the shortest that read back, names may be any bytes") {

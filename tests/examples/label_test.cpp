@@ -16,7 +16,7 @@ class IncidenceFinder {
     /// Takes the echoes of EchoModel::surface_echoes().
     void add(EchoBlock echoes) {
         if (echoes.multipath) return;
-        std::array<std::uint32_t, EchoBlock::most> sources{};
+        std::array<std::uint32_t, EchoBlock::capacity> sources{};
         sums_.add(echoes, sources);
         // v . n of a plane is the sonar's height above it over the range.
         for (int k = 0; k < echoes.count; ++k)

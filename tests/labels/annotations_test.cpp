@@ -22,7 +22,7 @@ struct FoundObjects {
     std::unique_ptr<VisibilityEngine> engine;
     TracedPing traced;
     PingLabels labels;
-    std::vector<ObjectInPing> seen;
+    std::vector<ObjectInPing> visible;
 
     FoundObjects(const Scene& scene, const SonarConfig& config, const Pose& pose,
                  const std::vector<ObjectSphere>& spheres, bool all_shadows = false)
@@ -33,13 +33,13 @@ struct FoundObjects {
         labels = label_ping(
             traced, sonar.settings, scene, objects, *engine,
             {.objects = true, .shadow = all_shadows, .annotations = true, .annotated = spheres});
-        seen = visible_objects(sonar, objects, traced, labels,
-                               form_image(traced, sonar.settings, scene, {}), {});
+        visible = visible_objects(sonar, objects, traced, labels,
+                                  form_image(traced, sonar.settings, scene, {}), {});
     }
 
     const ObjectInPing& object(std::uint32_t id) const {
-        const auto found = std::ranges::find(seen, id, &ObjectInPing::id);
-        REQUIRE(found != seen.end());
+        const auto found = std::ranges::find(visible, id, &ObjectInPing::id);
+        REQUIRE(found != visible.end());
         return *found;
     }
     /// The range at which the last bin of an object's shadow ends.
@@ -166,9 +166,10 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
         }
         CHECK(few.object_shadow == found.labels.object_shadow);
         for (std::size_t k = 0; k < few.object_shadow.size(); ++k) {
-            const std::uint16_t of_all = found.labels.shadow[k] > 1 ? found.labels.shadow[k] : 0;
-            both += of_all != 0 && few.object_shadow[k] != 0;
-            either += of_all != 0 || few.object_shadow[k] != 0;
+            const std::uint16_t all_finder =
+                found.labels.shadow[k] > 1 ? found.labels.shadow[k] : 0;
+            both += all_finder != 0 && few.object_shadow[k] != 0;
+            either += all_finder != 0 || few.object_shadow[k] != 0;
         }
     }
     CHECK(partly_hidden > 5);

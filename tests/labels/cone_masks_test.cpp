@@ -79,36 +79,36 @@ std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& so
 std::vector<double> energies_of_labels(const TracedPing& traced, const Sonar& sonar,
                                        const Scene& scene) {
     const View& view = sonar.settings.view;
-    const std::array<std::uint32_t, EchoBlock::most> one_source{};
+    const std::array<std::uint32_t, EchoBlock::capacity> one_source{};
     EchoSums sums(range_bins(view), view.beams);
     sonar.settings.model->surface_echoes(
         traced, view, scene, {}, [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
     std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
     for (int j = 0; j < view.beams; ++j) {
-        std::vector<float> of_beam(view.range_bins);
-        sums.add_to(0, j, of_beam);
+        std::vector<float> column(view.range_bins);
+        sums.add_to(0, j, column);
         for (int i = 0; i < view.range_bins; ++i)
-            energies[static_cast<std::size_t>(i) * view.beams + j] = of_beam[i];
+            energies[static_cast<std::size_t>(i) * view.beams + j] = column[i];
     }
     return energies;
 }
 
 /// The box of the bins above some energy, of those in the mask if there is one.
-Box box_above(const std::vector<double>& energies, double least, int beams,
+Box box_above(const std::vector<double>& energies, double min_energy, int beams,
               const std::vector<bool>& mask = {}) {
     Box box;
     for (std::size_t at = 0; at < energies.size(); ++at) {
         const Eigen::Vector2i bin(static_cast<int>(at) / beams, static_cast<int>(at) % beams);
-        if (energies[at] > least && (mask.empty() || mask[at]))
+        if (energies[at] > min_energy && (mask.empty() || mask[at]))
             box.extend(Box(bin, bin + Eigen::Vector2i::Ones()));
     }
     return box;
 }
 
 /// The box nearest to `box` that holds `least` and lies within `most`.
-Box between(const Box& box, const Box& least, const Box& most) {
-    return {box.min().cwiseMax(most.min()).cwiseMin(least.min()),
-            box.max().cwiseMax(least.max()).cwiseMin(most.max())};
+Box between(const Box& box, const Box& inner, const Box& outer) {
+    return {box.min().cwiseMax(outer.min()).cwiseMin(inner.min()),
+            box.max().cwiseMax(inner.max()).cwiseMin(outer.max())};
 }
 
 /// The sum of the decibels in a mask that is moved by some beams. All such masks are of one size:
@@ -152,9 +152,9 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         }
         // A bin within 3 dB of the noise may count or not.
         const std::vector<double> by_points = energies_of_points(traced, sonar);
-        const double least = noise * *std::ranges::max_element(by_points);
-        const Box loud = box_above(by_points, 2.0 * least, view.beams);
-        const Box faint = box_above(by_points, 0.5 * least, view.beams);
+        const double min_energy = noise * *std::ranges::max_element(by_points);
+        const Box loud = box_above(by_points, 2.0 * min_energy, view.beams);
+        const Box faint = box_above(by_points, 0.5 * min_energy, view.beams);
         if (loud.isEmpty() || loud.sizes().minCoeff() < 20)
             continue;  // a bin more or less tells nothing
         ++measured;
@@ -162,7 +162,7 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         // Both have all of the energy, in another unit.
         const double unit = std::accumulate(by_labels.begin(), by_labels.end(), 0.0) /
                             std::accumulate(by_points.begin(), by_points.end(), 0.0);
-        const Box box = box_above(by_labels, unit * least, view.beams, mask);
+        const Box box = box_above(by_labels, unit * min_energy, view.beams, mask);
         const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
         const double min_overlap = (1.0 - 1.0 / loud.sizes().x()) * (1.0 - 1.0 / loud.sizes().y());

@@ -123,11 +123,11 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
     const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 2}};
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
-        const Labelled seen = label(scene, sonar, pose, type);
+        const Labelled visible = label(scene, sonar, pose, type);
         const std::vector<float> height = heights(scene, sonar, pose, type, &bottom);
         int occupied = 0;
         for (std::size_t k = 0; k < height.size(); ++k) {
-            REQUIRE(std::isnan(height[k]) == std::isnan(seen.labels.elevation_rad[k]));
+            REQUIRE(std::isnan(height[k]) == std::isnan(visible.labels.elevation_rad[k]));
             if (std::isnan(height[k])) continue;
             ++occupied;
             // Surface as far above the sonar as below it falls into one bin.
@@ -154,13 +154,13 @@ TEST_CASE("labels: surface of the bottom has the same height with and without a 
         const std::vector<float> searched = heights(scene, sonar, down, type, &bottom);
         scene.is_bottom = {1, 1, 0};
         const std::vector<float> known = heights(scene, sonar, down, type, &bottom);
-        int of_wall = 0;
+        int wall_bins = 0;
         for (std::size_t k = 0; k < known.size(); ++k) {
             CHECK(std::isnan(known[k]) == std::isnan(searched[k]));
             if (std::isnan(known[k])) continue;
             CHECK(std::fabs(known[k] - searched[k]) < 1e-4F);
-            of_wall += known[k] > 1.0F ? 1 : 0;
+            wall_bins += known[k] > 1.0F ? 1 : 0;
         }
-        CHECK(of_wall > 20);
+        CHECK(wall_bins > 20);
     }
 }

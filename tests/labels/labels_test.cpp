@@ -163,12 +163,12 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
             double unexplained = 0.0;
             for (std::size_t bin = 0; bin < out.labels.size(); ++bin) {
                 const double* const echo = &echoes[bin * count];
-                const double* const most = std::max_element(echo, echo + count);
+                const double* const loudest = std::max_element(echo, echo + count);
                 const double total = std::accumulate(echo, echo + count, 0.0);
                 if (total == 0.0 || out.labels.object[bin] == 0) continue;
                 ++occupied;
                 const auto stated = static_cast<std::size_t>(out.labels.object[bin]) - 1;
-                same += most == echo + stated;
+                same += loudest == echo + stated;
                 // Another object is named only where both are there, or at the edge of a bin, where
                 // a footprint reaches over: then a neighbour has it.
                 bool near = echo[stated] > 0.0;

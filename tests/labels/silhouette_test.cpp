@@ -84,9 +84,9 @@ TEST_CASE("outline: a compact body is convex, an open one is not, a ring at the 
     CHECK(hook.text(outlined(hook.frame, hook.ids)) == hook.text(hook.ids));
     const DrawnIds cut(
         {".1......1.", ".1......1.", ".1......1.", ".11....11.", "..111111..", ".........."});
-    CHECK(cut.text(outlined(cut.frame, cut.ids)) ==
-          Lines{".11111111.", ".11111111.", ".11111111.", ".11111111.", "..111111..",
-                ".........."});
+    CHECK(cut.text(outlined(cut.frame, cut.ids)) == Lines{".11111111.", ".11111111.", ".11111111.",
+                                                          ".11111111.", "..111111..",
+                                                          ".........."});
     // A wall from one side of the picture to another.
     const DrawnIds wall({".11.........", ".11.........", ".11.........", ".11.........",
                          ".11.........", ".11.........", ".11111111111", "............"});
@@ -134,11 +134,11 @@ TEST_CASE("outline: a hull is straight in the plane of a fan") {
 TEST_CASE("silhouette: an object has the shadow behind it") {
     const DrawnIds drawn({".......", ".11....", ".11....", "......."});
     const DrawnIds shadow({".......", "...111.", "....112", "....11."});
-    const std::vector<std::uint8_t> of_all(3, 1);
-    CHECK(drawn.text(with_shadows(drawn.frame, drawn.ids, shadow.ids, of_all)) ==
+    const std::vector<std::uint8_t> all_finder(3, 1);
+    CHECK(drawn.text(with_shadows(drawn.frame, drawn.ids, shadow.ids, all_finder)) ==
           Lines{".......", ".11111.", ".11111.", "....11."});
     const DrawnIds far({".......", ".......", ".......", ".......", "....111"});
     const DrawnIds object({".11....", ".......", ".......", ".......", "......."});
-    CHECK(object.text(with_shadows(object.frame, object.ids, far.ids, of_all)) ==
+    CHECK(object.text(with_shadows(object.frame, object.ids, far.ids, all_finder)) ==
           object.text(object.ids));
 }

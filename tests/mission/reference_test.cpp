@@ -36,8 +36,8 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
             std::string path = section.path.empty() ? "" : section.path + ".";
             if (path.starts_with("sensors.NAME")) path.replace(8, 4, "fls");
             for (const KeyReference& key : section.keys) {
-                for (const auto& [of_kind, value] : key.defaults) {
-                    if (of_kind.empty() || of_kind == kind)
+                for (const auto& [default_kind, value] : key.defaults) {
+                    if (default_kind.empty() || default_kind == kind)
                         settings.push_back(path + key.name + "=" + value);
                 }
             }

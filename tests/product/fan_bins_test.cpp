@@ -24,7 +24,7 @@ struct Moments {
     double sum = 0.0;
     double centroid = 0.0;  ///< bins from the middle of the pixel's bin
     double squares = 0.0;
-    double least = 0.0;
+    double min_weight = 0.0;
 };
 
 Moments moments(const KernelTable& table, int phase) {
@@ -34,7 +34,7 @@ Moments moments(const KernelTable& table, int phase) {
         m.sum += weight;
         m.centroid += weight * (table.first[phase] + k);
         m.squares += weight * weight;
-        m.least = std::min(m.least, weight);
+        m.min_weight = std::min(m.min_weight, weight);
     }
     return m;
 }
@@ -111,7 +111,7 @@ TEST_CASE("even kernel: whatever the place, the same noise, the right centroid, 
             const Moments m = moments(table, phase);
             CAPTURE_ALL(extent, phase);
             REQUIRE(m.sum == 1.0);
-            REQUIRE(m.least == 0.0);
+            REQUIRE(m.min_weight == 0.0);
             const double centre = (phase + 0.5) / KernelTable::phases - 0.5;
             REQUIRE(std::fabs(m.centroid - centre) < 0.02);
             low = std::min(low, m.squares);

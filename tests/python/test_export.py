@@ -10,7 +10,7 @@ import tool
 from PIL import Image
 from sonarsim.data import open_dataset
 from sonarsim.export import runs
-from sonarsim.export.split import of_poses
+from sonarsim.export.split import poses_parts
 from sonarsim.export.stand_out import Greys
 from tool import counts_of, disc, mask_of
 
@@ -408,7 +408,7 @@ class Export(tool.ToolTest):
         self.assertEqual(list(self.coco("train")[1]), [f"fls-{ping:06}.png" for ping in range(3)])
         self.assertEqual(list(self.coco("test")[1]), [f"fls-{ping:06}.png" for ping in (7,)])
         # A border of twenty poses takes two, not ten.
-        parts = of_poses({"train": 0.8, "val": 0.2}, 20, None, 1)
+        parts = poses_parts({"train": 0.8, "val": 0.2}, 20, None, 1)
         self.assertEqual([parts.count(part) for part in ("train", None, "val")], [15, 2, 3])
         dest = self.folder / "tiles"
         self.export(self.out, "--format", "yolo", *split, "--gap", "0", "--sensor", "sss", "--tile", "24x30", dest=dest)

@@ -234,7 +234,7 @@ class RecordingTest(tool.ToolTest):
                            ({"files": {"polar": "../%06d.npy"}}, "not a name that"), ({"kind": "sidescan"}, "no records")):
             with self.subTest(what), self.assertRaisesRegex(RecordingError, what):
                 self.dataset(more.pop("kind", "imaging"), polar, **{**files, **more})
-        with unittest.mock.patch.object(dataset, "MOST_VALUES", 11), self.assertRaisesRegex(RecordingError, "take fewer pings"):
+        with unittest.mock.patch.object(dataset, "MAX_VALUES", 11), self.assertRaisesRegex(RecordingError, "take fewer pings"):
             self.dataset("imaging", polar, **files)
         (self.folder / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
         with self.assertRaisesRegex(RecordingError, "polar/000001.npy: "):

@@ -165,7 +165,7 @@ TEST_CASE("measured errors: only what is measured is warned of, in digits as peo
     errors[0] = MeasuredError{{{0, std::nullopt, 0.18}, {4, 0.01, 0.002}, {6, 0.03, 0.015}}};
     CHECK(*errors[0]->mean() == test::approx(0.02));
     CHECK(errors[0]->worst()->pose == 6);
-    CHECK(errors[0]->least_measurable() == test::approx(0.36));
+    CHECK(errors[0]->min_measurable() == test::approx(0.36));
     CHECK(error_warnings(mission, errors).empty());
     CHECK(json_of(*errors[0])["pings"][0]["relative_l1"].is_null());
     errors[0]->pings[2].relative_l1 = 0.0342;

@@ -135,13 +135,13 @@ TEST_CASE("rays and points of the surface together add up to its area") {
                add_material(sphere, 0.5F), 200);
     for (const std::uint32_t start : {0U, 1U}) {
         CAPTURE(start);
-        const SurfaceSums of_plates = sums_over(plates, 64, start);
-        CHECK(of_plates.near_m2 / (0.4 * 0.5) == test::approx(1.0).epsilon(5e-3));
-        CHECK(of_plates.far_m2 / (1.2 * 1.2 - 0.6 * 0.75) == test::approx(1.0).epsilon(5e-3));
-        const SurfaceSums of_sphere = sums_over(sphere, 16, start);
-        CHECK(of_sphere.near_m2 / (2.0 * pi * R * R * (1.0 - R / D)) ==
+        const SurfaceSums plate_sums = sums_over(plates, 64, start);
+        CHECK(plate_sums.near_m2 / (0.4 * 0.5) == test::approx(1.0).epsilon(5e-3));
+        CHECK(plate_sums.far_m2 / (1.2 * 1.2 - 0.6 * 0.75) == test::approx(1.0).epsilon(5e-3));
+        const SurfaceSums sphere_sums = sums_over(sphere, 16, start);
+        CHECK(sphere_sums.near_m2 / (2.0 * pi * R * R * (1.0 - R / D)) ==
               test::approx(1.0).epsilon(5e-3));
-        CHECK(of_sphere.solid_angle / (2.0 * pi * (1.0 - std::sqrt(1.0 - R * R / (D * D)))) ==
+        CHECK(sphere_sums.solid_angle / (2.0 * pi * (1.0 - std::sqrt(1.0 - R * R / (D * D)))) ==
               test::approx(1.0).epsilon(5e-3));
     }
 }

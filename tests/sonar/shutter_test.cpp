@@ -122,10 +122,10 @@ TEST_CASE("shutter: the box of an object is that of what the beams of all groups
     const PingLabels labels =
         label_ping(traced, sonar.settings, scene, objects, *engine, everything);
     const Ping ping = form_image(traced, sonar.settings, scene, {});
-    const auto seen = visible_objects(sonar, objects, traced, labels, ping, {});
-    CHECK(seen.size() == 12);
+    const auto visible = visible_objects(sonar, objects, traced, labels, ping, {});
+    CHECK(visible.size() == 12);
     const double late_deg = turn_deg_s * 2.0 * 10.0 / 1500.0;
-    for (const ObjectInPing& plate : seen) {
+    for (const ObjectInPing& plate : visible) {
         CAPTURE(plate.id);
         const double azimuth = radians(5.0 * (static_cast<int>(plate.id) - 10) - late_deg);
         REQUIRE(!plate.box_sensor_m.isEmpty());

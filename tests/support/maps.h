@@ -34,11 +34,10 @@ inline MaterialTexels material_texels(
 }
 
 /// Lays maps on all instances of a scene.
-inline void lay(Scene& scene, std::optional<MaterialTexels> of_materials,
-                std::optional<StrengthTexels> of_strengths) {
-    scene.maps =
-        std::make_shared<const GroundMaps>(std::move(of_materials), std::move(of_strengths),
-                                           std::vector<char>(scene.instances.size(), 1));
+inline void lay(Scene& scene, std::optional<MaterialTexels> materials,
+                std::optional<StrengthTexels> strengths) {
+    scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(strengths),
+                                                    std::vector<char>(scene.instances.size(), 1));
 }
 
 }  // namespace sonarsim::test

@@ -20,7 +20,7 @@ StrengthTexels chequered(double field_m) {
 
 /// The factors of points of the floor by bin: [range bins, beams].
 struct FactorsOfBins {
-    std::vector<double> sum, weight, least, greatest;
+    std::vector<double> sum, weight, min, max;
 };
 
 /// Points of a lattice on the floor ahead of the vehicle, or abeam of it, with no engine: each
@@ -54,8 +54,8 @@ FactorsOfBins factors_of_bins(const Sonar& sonar, const Scene& scene, const Pose
             const double cosine = pose.translation.z() / range;
             out.sum[k] += factor * cosine;
             out.weight[k] += cosine;
-            out.least[k] = std::min(out.least[k], factor);
-            out.greatest[k] = std::max(out.greatest[k], factor);
+            out.min[k] = std::min(out.min[k], factor);
+            out.max[k] = std::max(out.max[k], factor);
         }
     }
     return out;
@@ -64,18 +64,18 @@ FactorsOfBins factors_of_bins(const Sonar& sonar, const Scene& scene, const Pose
 /// The factor of the bins around a bin, if it is one; 0 at borders.
 double factor_around(const FactorsOfBins& factors, const View& view, int bin, int beam, int bins,
                      int beams) {
-    double least = 1e9;
-    double greatest = 0.0;
+    double min_factor = 1e9;
+    double max_factor = 0.0;
     for (int i = bin - bins; i <= bin + bins; ++i) {
         for (int j = beam - beams; j <= beam + beams; ++j) {
             if (i < 0 || i >= view.range_bins || j < 0 || j >= view.beams) return 0.0;
             const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
             if (factors.weight[k] == 0.0) return 0.0;
-            least = std::min(least, factors.least[k]);
-            greatest = std::max(greatest, factors.greatest[k]);
+            min_factor = std::min(min_factor, factors.min[k]);
+            max_factor = std::max(max_factor, factors.max[k]);
         }
     }
-    return least == greatest ? least : 0.0;
+    return min_factor == max_factor ? min_factor : 0.0;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ TEST_CASE("the paper's images have the mean over every bin: a chequered map of 6
                         off += std::fabs(found - expected.sum[k] / expected.weight[k]);
                         sum += expected.sum[k] / expected.weight[k];
                         ++count;
-                        if (expected.least[k] == expected.greatest[k]) continue;
+                        if (expected.min[k] == expected.max[k]) continue;
                         const double apart = db(found * expected.weight[k] / expected.sum[k]);
                         worst_at_border = std::max(worst_at_border, std::fabs(apart));
                         squares_at_border += apart * apart;
@@ -174,13 +174,13 @@ TEST_CASE("fields smaller than a bin count by their area") {
         for (const bool side : {false, true}) {
             const Sonar sonar = side ? sidescan(model, 0.2) : imaging(model, 40);
             const View& view = sonar.settings.view;
-            const auto seen = [&](const Scene& scene) {
+            const auto visible = [&](const Scene& scene) {
                 return expected_image(sonar, scene, EngineKind::strips, above_floor());
             };
-            const std::vector<float> without = seen(fields.plain);
+            const std::vector<float> without = visible(fields.plain);
             for (const Scene* const scene : {&fields.by_strength, &fields.by_material}) {
                 CAPTURE_ALL(static_cast<int>(model), side, scene == &fields.by_strength);
-                const std::vector<float> image = seen(*scene);
+                const std::vector<float> image = visible(*scene);
                 double sum_db = 0.0;
                 double worst = 0.0;
                 int count = 0;

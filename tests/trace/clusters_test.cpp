@@ -41,13 +41,13 @@ TEST_CASE("clusters keep their limits, and every sample is in one") {
     const float cosine = static_cast<float>(std::cos(radians(15.0)));
     const Clusters clusters = cluster_samples(view, samples, {5, cosine});
     CHECK(clusters.size() < samples.items.size() / 2);
-    std::set<std::uint32_t> seen;
+    std::set<std::uint32_t> visible;
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const auto members = clusters.of(c);
         const Sample& first = samples.items[members[0]];
         for (const std::uint32_t i : members) {
             const Sample& s = samples.items[i];
-            CHECK(seen.insert(i).second);
+            CHECK(visible.insert(i).second);
             CHECK(s.normal.dot(first.normal) >= cosine);
             CHECK(std::fabs(s.position.norm() - first.position.norm()) < 5.0 * view.bin_m());
             CHECK(std::abs(beam_of(view, s.position) - beam_of(view, first.position)) < 5);
@@ -55,7 +55,7 @@ TEST_CASE("clusters keep their limits, and every sample is in one") {
     }
     CHECK(std::ranges::count_if(samples.items, [&](const Sample& s) {
               return s.position.norm() < view.range_max_m;
-          }) == std::ssize(seen));
+          }) == std::ssize(visible));
 }
 
 TEST_CASE("epsilon 0 is the exact method") {

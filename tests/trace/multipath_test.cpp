@@ -40,15 +40,15 @@ void check_against(const Found& found, const View& view,
         CHECK(std::fabs(b.beam - beam_of_azimuth(view, truth.azimuth)) < 1e-2);
         CHECK(std::fabs(b.intensity - truth.intensity) < 1e-4);
         constexpr double step = 1e-3;
-        const auto edge = [&](const Eigen::Vector3f& half, float of_range, float of_beam) {
+        const auto edge = [&](const Eigen::Vector3f& half, float range_change, float beam_change) {
             // Beside an edge of the scene a footprint may stick out of the plane a little.
             if (std::fabs(half.dot(sample.normal)) > 1e-5F) return;
             const Expected ahead = geometry(at + step * half.cast<double>());
             const Expected behind = geometry(at - step * half.cast<double>());
-            CHECK(std::fabs(of_range - (ahead.range - behind.range) / (2.0 * step)) < 1e-4);
-            CHECK(std::fabs(of_beam - (beam_of_azimuth(view, ahead.azimuth) -
-                                       beam_of_azimuth(view, behind.azimuth)) /
-                                          (2.0 * step)) < 1e-3);
+            CHECK(std::fabs(range_change - (ahead.range - behind.range) / (2.0 * step)) < 1e-4);
+            CHECK(std::fabs(beam_change - (beam_of_azimuth(view, ahead.azimuth) -
+                                           beam_of_azimuth(view, behind.azimuth)) /
+                                              (2.0 * step)) < 1e-3);
         };
         edge(sample.edge_u, b.range_u, b.beam_u);
         edge(sample.edge_v, b.range_v, b.beam_v);
@@ -96,9 +96,10 @@ TEST_CASE("multipath between two perpendicular walls") {
                 onwards && std::fabs(p.z()) < 3.0 &&
                 (is_on_port(at) ? p.y() > -9.0 && p.y() < a : p.x() > 0.0 && p.x() < b);
             const Expected e = geometry(at);
-            const bool seen = std::fabs(std::asin(p.z() / p.norm())) < 0.5 * view.elevation_rad &&
-                              std::fabs(e.azimuth) < 0.5 * view.azimuth_rad;
-            closed += on_wall && seen && e.intensity > 0.0 && e.range < view.range_max_m;
+            const bool visible =
+                std::fabs(std::asin(p.z() / p.norm())) < 0.5 * view.elevation_rad &&
+                std::fabs(e.azimuth) < 0.5 * view.azimuth_rad;
+            closed += on_wall && visible && e.intensity > 0.0 && e.range < view.range_max_m;
         }
         REQUIRE(closed > 300);
         CHECK(static_cast<double>(found.bounces.size()) ==

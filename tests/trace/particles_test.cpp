@@ -54,12 +54,12 @@ TEST_CASE("particles: those in view that no surface hides") {
             numbers.push_back(sample.number);
         return numbers;
     };
-    Samples seen;
-    add_particles(particles, 0.0, wide_fan, *engine, {}, {}, seen);
+    Samples visible;
+    add_particles(particles, 0.0, wide_fan, *engine, {}, {}, visible);
     // 5 is outside in azimuth, 6 at 11.3 degrees of elevation, 7 beyond 20 m.
-    CHECK(numbers_of(seen) == std::vector<std::uint32_t>{0, 3, 8, 9});
-    CHECK((seen.items[1].position - Eigen::Vector3f(12.0F, 3.1F, 0.0F)).norm() < 1e-5F);
-    CHECK(seen.items[1].area_m2 == 0.25F);
+    CHECK(numbers_of(visible) == std::vector<std::uint32_t>{0, 3, 8, 9});
+    CHECK((visible.items[1].position - Eigen::Vector3f(12.0F, 3.1F, 0.0F)).norm() < 1e-5F);
+    CHECK(visible.items[1].area_m2 == 0.25F);
     // From a sonar behind the wall that looks back, past whose edge it sees 5.
     const Pose back{rotation_from_rpy(0.0, 0.0, pi), {16.0, 0.0, 0.0}};
     Samples behind;

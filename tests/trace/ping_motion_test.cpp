@@ -53,8 +53,8 @@ TEST_CASE("ping motion: any motion, by a search for the time of reception; and i
         const Eigen::Vector3d measured = measured_place(motion, ViewShape::fan, place);
         CHECK((measured - 0.5 * sound_m_s * low * direction).norm() < 1e-9);
         for (const ViewShape shape : {ViewShape::fan, ViewShape::cone}) {
-            const Eigen::Vector3d seen = measured_place(motion, shape, place);
-            CHECK((unmoved_place(motion, shape, seen) - place).norm() < 1e-8);
+            const Eigen::Vector3d visible = measured_place(motion, shape, place);
+            CHECK((unmoved_place(motion, shape, visible) - place).norm() < 1e-8);
         }
     }
 }

@@ -19,9 +19,9 @@ double area_between(Scene scene, const View& view, const Pose& pose, double from
     const auto engine = make_rays_engine(scene);
     scene.water_surface = WaterSurface{surface_m, 1.0F, 5.0};
     double sum = 0.0;
-    Samples seen;
-    add_water_surface(view, scene, *engine, pose, {}, seen);
-    for (const Sample& sample : seen.items) {
+    Samples visible;
+    add_water_surface(view, scene, *engine, pose, {}, visible);
+    for (const Sample& sample : visible.items) {
         CHECK(sample.material == scene.materials.size());
         const double range = sample.position.norm();
         CHECK(sample.height_m == test::approx(surface_m - pose.translation.z()));

@@ -45,9 +45,9 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     Pose pose;
     pose.translation = {-4.0, 0.0, 2.0};
     pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
-    const Samples seen = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
-                             ->visible_surface(view, pose);
-    CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
+    const Samples visible = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
+                                ->visible_surface(view, pose);
+    CHECK(same(visible, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 
 TEST_CASE("engine: the octree and the strips refuse copies, bodies and profiles of sound speed") {

@@ -119,16 +119,16 @@ TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line")
                        {50.0F, -5.0F, -19.9F}, material);
         const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
         const Samples samples = engine->visible_surface(bent_view(), bent_pose);
-        bool is_seen = false;
+        bool is_visible = false;
         for (const Sample& sample : samples.items) {
             const Eigen::Vector3d place =
                 place_of(*scene.sound_profile, Eigen::Vector3d::Zero(),
                          bent_pose.rotation * sample.position.cast<double>().normalized(),
                          static_cast<double>(sample.position.norm()));
-            is_seen |= std::fabs(place.z() - bent_bottom_m) < 0.1 &&
-                       std::fabs(place.x() - 100.0) < 0.5 && std::fabs(place.y()) < 1.0;
+            is_visible |= std::fabs(place.z() - bent_bottom_m) < 0.1 &&
+                          std::fabs(place.x() - 100.0) < 0.5 && std::fabs(place.y()) < 1.0;
         }
-        CHECK(is_seen == (gradient > 0.0));
+        CHECK(is_visible == (gradient > 0.0));
     }
 }
 

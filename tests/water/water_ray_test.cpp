@@ -149,9 +149,9 @@ TEST_CASE("rays in Munk's profile have the cycles that WaveQ3D lists") {
     const std::pair<double, double> listed[] = {{1.0, 48161.238557},  {2.0, 48412.185973},
                                                 {5.0, 50189.572079},  {8.0, 53559.948084},
                                                 {11.0, 58539.834823}, {14.0, 64977.771509}};
-    for (const auto& of_code : listed) {
+    for (const auto& known : listed) {
         for (const double side : {1.0, -1.0})
-            CHECK(cycle_of(side * of_code.first) == test::approx(of_code.second).epsilon(1e-5));
+            CHECK(cycle_of(side * known.first) == test::approx(known.second).epsilon(1e-5));
     }
 }
 

@@ -40,7 +40,7 @@ ANY_TEXT = re.compile(".*", re.DOTALL)
 # The bytes that a pose takes in trajectory.tum: eight numbers, each with a blank or the line's end.
 SHORTEST_POSE = 16
 # A byte of a PNG file unpacks to at most this many bytes.
-MOST_INFLATED = 1032
+MAX_INFLATED = 1032
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
 PNG_KINDS = ((8, 0), (16, 0), (8, 2), (16, 2), (8, 3))
 
@@ -431,7 +431,7 @@ def read_png(data):
     channels = 3 if colour == 2 else 1
     pixel = channels * bits // 8
     expected = height * (1 + width * pixel)
-    if not width or not height or expected > MOST_INFLATED * len(data):
+    if not width or not height or expected > MAX_INFLATED * len(data):
         raise Damage("is a PNG whose width and height cannot be right")
     rows = np.frombuffer(unpacked(b"".join(packed), expected), np.uint8)
     rows = rows.reshape(height, 1 + width * pixel)

@@ -32,10 +32,10 @@ Json within(const char* type, const Limits& limits) {
     return json;
 }
 
-Json list_json(Json items, std::size_t fewest, std::size_t most = 0) {
+Json list_json(Json items, std::size_t min_items, std::size_t max_items = 0) {
     Json json{{"type", "array"}, {"items", std::move(items)}};
-    if (fewest > 0) json["minItems"] = fewest;
-    if (most > 0) json["maxItems"] = most;
+    if (min_items > 0) json["minItems"] = min_items;
+    if (max_items > 0) json["maxItems"] = max_items;
     return json;
 }
 

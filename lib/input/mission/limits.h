@@ -54,6 +54,7 @@ using Choices = std::span<const Choice<T>>;
 template <class Named>
 std::vector<std::string> names_of(const Named& all) {
     std::vector<std::string> names;
+    names.reserve(std::size(all));
     for (const auto& one : all)
         names.emplace_back(one.name);
     return names;

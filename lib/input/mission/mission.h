@@ -152,17 +152,17 @@ void describe(Visitor& v, Mission& c) {
               "water.profile has depths below the water's surface: give its height by "
               "scene.water_surface");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
-    const bool is_seen =
+    const bool is_visible =
         !c.scene.particles.empty() || (c.scene.water_surface && c.scene.water_surface->scatters);
-    v.require(!is_seen || std::ranges::all_of(c.sensors,
-                                              [](const SonarConfig& s) {
-                                                  return s.model == ModelKind::calibrated;
-                                              }),
+    v.require(!is_visible || std::ranges::all_of(c.sensors,
+                                                 [](const SonarConfig& s) {
+                                                     return s.model == ModelKind::calibrated;
+                                                 }),
               {"scene", "sensors"},
               "scene.particles and scene.water_surface.scatters need model: calibrated on all "
               "sensors");
     v.require(
-        !is_seen || !c.water.profile, {"scene", "water"},
+        !is_visible || !c.water.profile, {"scene", "water"},
         "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
         "out water.profile or these keys");
     v.section("accuracy", c.accuracy, "error goal of the images");

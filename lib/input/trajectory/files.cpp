@@ -36,9 +36,9 @@ constexpr Column all_columns[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_
                                   {"z_m", furthest_m}, {"qx", 1e9},         {"qy", 1e9},
                                   {"qz", 1e9},         {"qw", 1e9},         {"roll_deg", 1e6},
                                   {"pitch_deg", 1e6},  {"yaw_deg", 1e6}};
-constexpr std::span<const Column> of_time_and_place(all_columns, 4);
-constexpr std::span<const Column> of_quaternion(all_columns + 4, 4);
-constexpr std::span<const Column> of_angles(all_columns + 8, 3);
+constexpr std::span<const Column> time_and_place(all_columns, 4);
+constexpr std::span<const Column> quaternion_columns(all_columns + 4, 4);
+constexpr std::span<const Column> angle_columns(all_columns + 8, 3);
 constexpr std::size_t tum_fields = 8;
 constexpr const char* header_help =
     "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
@@ -77,9 +77,9 @@ Eigen::Quaterniond unit_quaternion(std::span<const double, 4> xyzw, const Locati
 
 /// Takes `values` in the order of the columns.
 TimedPose pose_from(std::span<const double> values, const Location& where) {
-    const auto attitude = values.subspan(of_time_and_place.size());
+    const auto attitude = values.subspan(time_and_place.size());
     const Eigen::Quaterniond rotation =
-        attitude.size() == of_quaternion.size()
+        attitude.size() == quaternion_columns.size()
             ? unit_quaternion(attitude.first<4>(), where)
             : rotation_from_rpy(radians(attitude[0]), radians(attitude[1]), radians(attitude[2]));
     return {values[0], {rotation, {values[1], values[2], values[3]}}};
@@ -120,13 +120,13 @@ void check_names(std::span<const std::string> header, const Location& where) {
 std::vector<Column> columns_of(std::span<const std::string> header, const Location& where) {
     check_names(header, where);
     const auto is_given = [&](const Column& column) { return has(header, column.name); };
-    const bool quaternion = std::ranges::any_of(of_quaternion, is_given);
-    if (quaternion == std::ranges::any_of(of_angles, is_given)) {
+    const bool quaternion = std::ranges::any_of(quaternion_columns, is_given);
+    if (quaternion == std::ranges::any_of(angle_columns, is_given)) {
         throw InputError(where, std::string(quaternion ? "two attitudes" : "no attitude") +
                                     "; expected " + header_help);
     }
-    const std::span<const Column> attitude = quaternion ? of_quaternion : of_angles;
-    std::vector<Column> columns(of_time_and_place.begin(), of_time_and_place.end());
+    const std::span<const Column> attitude = quaternion ? quaternion_columns : angle_columns;
+    std::vector<Column> columns(time_and_place.begin(), time_and_place.end());
     columns.insert(columns.end(), attitude.begin(), attitude.end());
     std::vector<Column> missing;
     std::ranges::remove_copy_if(columns, std::back_inserter(missing), is_given);

@@ -18,10 +18,10 @@ namespace {
 /// without their sign are in the order of the numbers, with infinity above all numbers and NaN
 /// above infinity. A maximum of integers vectorises, a maximum of floats does not.
 float greatest_magnitude(std::span<const float> values) {
-    std::uint32_t greatest = 0;
+    std::uint32_t max_bits = 0;
     for (const float value : values)
-        greatest = std::max(greatest, std::bit_cast<std::uint32_t>(value) & 0x7fffffffU);
-    return std::bit_cast<float>(greatest);
+        max_bits = std::max(max_bits, std::bit_cast<std::uint32_t>(value) & 0x7fffffffU);
+    return std::bit_cast<float>(max_bits);
 }
 
 /// The number of values above `limit`. Sums of 32 bits vectorise.

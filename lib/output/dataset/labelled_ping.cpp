@@ -90,8 +90,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    if (request.outlines)
-        out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
+    if (request.outlines) out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);
     if (plan.mask != MaskKind::echo && std::ranges::count(plan.has_shadow, 1) > 0) {
@@ -107,7 +106,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
                                plan.fan->frame.height);
         fan_boxes = plan.fan->boxes;
     }
-    out.seen = visible_objects(sonar, assembly.objects, traced, out.bins, ping, fan_boxes);
+    out.visible = visible_objects(sonar, assembly.objects, traced, out.bins, ping, fan_boxes);
     return out;
 }
 

@@ -38,7 +38,7 @@ struct LabelledPing {
     std::vector<ObjectMask> polar;      ///< masks of the objects: rows of range, columns of beams
     std::vector<ObjectMask> fan;        ///< the same in the picture of the fan
     const FanBins* fan_bins = nullptr;  ///< null if no label is in the fan
-    std::vector<ObjectInPing> seen;     ///< sorted by id; empty if no writer needs it
+    std::vector<ObjectInPing> visible;  ///< sorted by id; empty if no writer needs it
 };
 
 /// Labels the bins at the time `t_s`, and finds the masks and seen objects that the writers need.

@@ -141,18 +141,18 @@ void judge_ping_rate(const Mission& mission, const Trajectory& trajectory, const
     const double needed_s = ping_time_s(sonar, mission.water.sound_speed_m_s);
     const auto every = static_cast<std::size_t>(sonar.config.every);
     std::size_t early = 0;
-    double least_s = needed_s;
+    double min_s = needed_s;
     for (std::size_t i = every; i < trajectory.size(); i += every) {
         const double interval_s = trajectory[i].t_s - trajectory[i - every].t_s;
         if (interval_s >= needed_s * (1.0 - rounding)) continue;
         ++early;
-        least_s = std::min(least_s, interval_s);
+        min_s = std::min(min_s, interval_s);
     }
     if (early == 0) return;
     out.push_back(make_warning(WarningCode::ping_too_early, about_sensor(sonar.config.name), early,
-                               (trajectory.size() - 1) / every, 1.0 / least_s,
+                               (trajectory.size() - 1) / every, 1.0 / min_s,
                                sonar.config.range_max_m, 1.0 / needed_s,
-                               static_cast<double>(every) * std::ceil(needed_s / least_s)));
+                               static_cast<double>(every) * std::ceil(needed_s / min_s)));
 }
 
 // An estimate, not a measurement: surface in every bin, at an error goal of 1 %.

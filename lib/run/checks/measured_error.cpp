@@ -23,7 +23,7 @@ constexpr std::size_t max_measured_pings = 3;
 constexpr double measurable = 0.5;
 
 /// No engine refines images much beyond a third of this goal.
-constexpr double least_refined_goal = 0.01;
+constexpr double min_refined_goal = 0.01;
 
 // A count and not a time, so that the numbers are the same on every machine.
 constexpr std::uint64_t mean_rays_max = 6'000'000;
@@ -87,7 +87,7 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const double with_paths = many_paths ? change(0.1) : 0.0;
     const double error = std::max(direct, with_paths);
     if (truth.noise <= measurable * std::max(goal, error)) return {pose, error, truth.noise};
-    if (mission.engine == EngineKind::octree || goal < least_refined_goal)
+    if (mission.engine == EngineKind::octree || goal < min_refined_goal)
         return {pose, {}, truth.noise};
     // The noise may be all of `direct`.
     return {pose, many_paths ? with_paths : change(1.0 / 3.0), truth.noise, true};
@@ -133,7 +133,7 @@ std::optional<PingError> MeasuredError::worst() const {
     return *std::ranges::max_element(found, {}, &PingError::relative_l1);
 }
 
-double MeasuredError::least_measurable() const {
+double MeasuredError::min_measurable() const {
     double noise = 0.0;
     for (const PingError& ping : pings) {
         if (!ping.relative_l1) noise = std::max(noise, ping.noise);

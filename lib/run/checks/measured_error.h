@@ -30,7 +30,7 @@ struct MeasuredError {
     std::optional<double> mean() const;       ///< over the measured pings
     std::optional<PingError> worst() const;   ///< the largest error of a measured ping
     /// The least error that could be measured in all pings; 0 where each has one.
-    double least_measurable() const;
+    double min_measurable() const;
 };
 
 /// The mission without the scattering of the water's volume.

@@ -148,9 +148,9 @@ void check_position(const Scene& scene, bool open_upwards,
     }
     // Below a sea floor, and below a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
-    const auto most = std::ranges::max_element(met);
-    if (met.empty() || 100 * *most < 98 * around.directions.size()) return;
-    const auto instance = static_cast<std::size_t>(most - met.begin());
+    const auto largest = std::ranges::max_element(met);
+    if (met.empty() || 100 * *largest < 98 * around.directions.size()) return;
+    const auto instance = static_cast<std::size_t>(largest - met.begin());
     if (boxes[instance].isEmpty()) return;
     if (holds_all(boxes[instance], scene) &&
         !is_inside_solid(scene, instance, T_world_sensor.translation))
@@ -188,7 +188,7 @@ bool take_samples(const View& view, const Samples& samples, const SceneObjects& 
         if (!sees.empty()) sees[objects.object_of(sample.instance)] = 1;
     }
     for (std::size_t k = 0; k < sees.size(); ++k)
-        out.seen[k] += sees[k];
+        out.visible[k] += sees[k];
     if (echoes.empty()) return false;
     out.first_echo_m.take(echoes.low);
     out.last_echo_m.take(echoes.high);
@@ -239,17 +239,17 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
                          const VisibilityEngine& rays) {
     SonarSurvey out;
     out.visible_m2.resize(assembly.scene.instances.size());
-    out.seen.resize(assembly.objects.objects.size());
+    out.visible.resize(assembly.objects.objects.size());
     const bool open_upwards = faces_up(assembly.scene);
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
     const bool slow = sonar.settings.model->info.is_slow;
-    const std::size_t most = slow ? max_slow : max_pings;
+    const std::size_t max_probes = slow ? max_slow : max_pings;
     BinSums sums;
     for (const std::uint32_t pose :
          sample_pings(assembly.trajectory.size(), sonar.config.every,
-                      std::clamp<std::size_t>(max_bins / bins, 3, most))) {
+                      std::clamp<std::size_t>(max_bins / bins, 3, max_probes))) {
         const TimedPose& at = assembly.trajectory[pose];
         const SonarAtPose then(mission, sonar, pose);
         const Pose T_world_sensor = sensor_pose(*then, at.T_world_vehicle, pose);

@@ -55,10 +55,10 @@ struct SonarSurvey {
     double occupied_share = 0.0;  ///< a share of the bins of all pings
     double white_share = 0.0;     ///< share of the occupied bins above the white of pictures
     float brightest = 0.0F;
-    double signal = 0.0;             ///< mean intensity of the occupied bins without pixel noise
-    double noise = 0.0;              ///< mean deviation of the noise that is added to them
-    std::vector<double> visible_m2;  ///< visible surface, by Scene::instances
-    std::vector<std::size_t> seen;   ///< number of pings with its surface, by Assembly::objects
+    double signal = 0.0;               ///< mean intensity of the occupied bins without pixel noise
+    double noise = 0.0;                ///< mean deviation of the noise that is added to them
+    std::vector<double> visible_m2;    ///< visible surface, by Scene::instances
+    std::vector<std::size_t> visible;  ///< number of pings with its surface, by Assembly::objects
 };
 
 /// Traces a few dozen pings of every sonar of the mission with rays, coarsely sampled. The result

@@ -96,12 +96,12 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
         if (extent.body >= 0) T_world_object = body_poses(assembly, at.t_s)[extent.body];
         const Eigen::Vector3d world =
             T_world_object.rotation * extent.centre + T_world_object.translation;
-        const Eigen::Vector3d seen =
+        const Eigen::Vector3d visible =
             T_world_sensor.rotation.conjugate() * (world - T_world_sensor.translation);
-        const double range = seen.norm();
+        const double range = visible.norm();
         if (range + extent.radius < view.range_min_m || range - extent.radius >= view.range_max_m)
             continue;
-        const double angle_off = angle_off_view(view, seen);
+        const double angle_off = angle_off_view(view, visible);
         const double half_width = range > extent.radius ? std::asin(extent.radius / range) : pi;
         if (angle_off <= half_width) poses.push_back({pose, angle_off});
     }
@@ -164,7 +164,7 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
     for (const Sonar& sonar : assembly.sonars)
         resolved_m = std::min(resolved_m, sonar.settings.view.bin_m());
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
-        const auto has_seen = [&](const SonarSurvey& sonar) {
+        const auto is_visible_to = [&](const SonarSurvey& sonar) {
             return sonar.visible_m2[instance] > 0.0;
         };
         if (extents[instance].radius < 0.0 || !is_wanted(mission, scene, instance)) continue;
@@ -172,17 +172,17 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
             tiny.push_back(scene.instances[instance]);
             continue;
         }
-        if (std::ranges::any_of(sonars, has_seen)) continue;
+        if (std::ranges::any_of(sonars, is_visible_to)) continue;
         if (++looked_for > max_objects) continue;
         bool in_view = false;
-        bool seen = false;
-        for (std::size_t i = 0; i < assembly.sonars.size() && !seen; ++i) {
+        bool visible = false;
+        for (std::size_t i = 0; i < assembly.sonars.size() && !visible; ++i) {
             const std::vector<PoseInView> poses =
                 poses_in_view(mission, assembly, assembly.sonars[i], extents[instance]);
             in_view = in_view || !poses.empty();
-            seen = sees(mission, assembly, assembly.sonars[i], poses, instance, rays);
+            visible = sees(mission, assembly, assembly.sonars[i], poses, instance, rays);
         }
-        if (!seen) (in_view ? hidden : never_in_view).push_back(scene.instances[instance]);
+        if (!visible) (in_view ? hidden : never_in_view).push_back(scene.instances[instance]);
     }
     const std::string not_looked_for =
         looked_for > max_objects

@@ -75,8 +75,8 @@ void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb c
 }
 
 void draw_dot(Picture& picture, const Eigen::Vector2d& at, int half, Rgb colour) {
-    const double most = picture.width + picture.height;
-    if (!(at.cwiseAbs().maxCoeff() < most)) return;
+    const double limit = picture.width + picture.height;
+    if (!(at.cwiseAbs().maxCoeff() < limit)) return;
     fill(picture, static_cast<int>(std::floor(at.x())) - half,
          static_cast<int>(std::floor(at.y())) - half, 2 * half + 1, 2 * half + 1, colour);
 }

@@ -105,11 +105,11 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
         references[p] = cast_reference(comparison.caster, pings.scene, *then,
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
-    const auto most = std::ranges::max_element(references, {}, &Reference::noise);
+    const auto noisiest = std::ranges::max_element(references, {}, &Reference::noise);
     report.references.push_back(
         {{"sensor", sonar.config.name},
          {"noise_mean", mean_over(references, &Reference::noise)},
-         {"noise_max", most->noise},
+         {"noise_max", noisiest->noise},
          {"rays_per_bin_mean", mean_over(references, &Reference::rays_per_bin)}});
     return references;
 }

@@ -56,7 +56,7 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     const bool all = settings.view.shape == ViewShape::cone || !settings.model->info.energies_add;
     std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
     if (all) return out;
-    const std::array<std::uint32_t, EchoBlock::most> one_source{};
+    const std::array<std::uint32_t, EchoBlock::capacity> one_source{};
     for (int group = 0; group < traced.groups(); ++group) {
         EchoSums sums(bins, settings.view.beams);
         settings.model->surface_echoes(
@@ -78,8 +78,9 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.model->info.is_slow ? max_slow : max_pings_for_white;
-    const std::size_t probes = std::clamp<std::size_t>(max_bins / bins, 1, most);
+    const std::size_t max_probes =
+        sonar.settings.model->info.is_slow ? max_slow : max_pings_for_white;
+    const std::size_t probes = std::clamp<std::size_t>(max_bins / bins, 1, max_probes);
     std::vector<float> occupied;
     for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];

@@ -29,12 +29,12 @@ void announce_large(const BedGrid& grid, const std::function<void(const std::str
 
 Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
                                     const Trajectory& vehicle, double faster) {
-    Eigen::AlignedBox2d seen;
+    Eigen::AlignedBox2d visible;
     for (const Sonar& sonar : sonars) {
         const double reach_m = faster * sonar.settings.view.range_max_m;
         const auto extend = [&](const Pose& at) {
             const Eigen::Vector2d place = at.translation.head<2>();
-            seen.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
+            visible.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
         };
         const int later_groups = sonar.config.shutter.groups - 1;
         for (std::size_t i = 0; i < vehicle.size(); ++i) {
@@ -49,7 +49,7 @@ Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sona
             extend(pose_after(motion, at, last_s));
         }
     }
-    return seen;
+    return visible;
 }
 
 Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) {

@@ -76,12 +76,12 @@ std::size_t class_named(const Mission& mission, const SceneObjects& objects, con
 std::vector<std::pair<std::string, std::string>> drawn_instances(const SceneConfig& scene) {
     std::vector<std::pair<std::string, std::string>> drawn;
     for (const ScatterConfig& scatter : scene.scatter) {
-        const auto most = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
+        const auto max_count = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
         for (std::size_t file = 0; file < scatter.files.size(); ++file) {
             if (file == 0 || scatter.class_of(file) != scatter.class_of(file - 1))
                 drawn.push_back({scatter.name + "_1", scatter.class_of(file)});
         }
-        for (std::size_t k = 2; k <= most; ++k)
+        for (std::size_t k = 2; k <= max_count; ++k)
             drawn.push_back({scatter.name + "_" + std::to_string(k), scatter.class_of(0)});
     }
     for (const ParticlesConfig& particles : scene.particles) {

@@ -33,7 +33,7 @@ class ImageFormer {
           beams_(*model.beams),
           traced_(traced),
           context_(context),
-          scene_draws_(context.draws.of_scene(Stream::scatterers)),
+          scene_draws_(context.draws.scene_key(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
@@ -243,7 +243,7 @@ class ImageFormer {
     }
 
     PointScatterers points_of(const KindOfSample& kind, std::span<const Sample> samples) const {
-        const PhiloxKey key = context_.draws.of_scene(stream_named(kind.stream));
+        const PhiloxKey key = context_.draws.scene_key(stream_named(kind.stream));
         PointScatterers out{.points = {samples.begin(), samples.end()}, .turns = {}};
         for (const Sample& sample : samples)
             out.turns.push_back(unit_float(philox({sample.number, 0, 0, 0}, key).x0));

@@ -254,9 +254,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     std::vector<std::vector<Sample>> kept;
     for (const KindOfSample& kind : kinds_of_samples) {
         if (!kind.has_labels) continue;
-        std::span<const Sample> of_kind = samples.of(kind.kind);
-        if (near_objects) of_kind = kept.emplace_back(near_objects->among(of_kind));
-        finder.add(kind.kind, of_kind);
+        std::span<const Sample> chosen = samples.of(kind.kind);
+        if (near_objects) chosen = kept.emplace_back(near_objects->among(chosen));
+        finder.add(kind.kind, chosen);
     }
     finder.add_multipath(paths);
     return finder.take();

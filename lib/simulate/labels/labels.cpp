@@ -36,7 +36,7 @@ class SurfaceSums {
         : sums_(range_bins(view), view.beams), objects_(objects), by_second_(by_second) {}
 
     void add(const EchoBlock& echoes) {
-        std::array<std::uint32_t, EchoBlock::most> sources;
+        std::array<std::uint32_t, EchoBlock::capacity> sources;
         const Sample* last = nullptr;
         const bool has_second = by_second_ && echoes.multipath;
         std::uint32_t last_second = no_instance;
@@ -193,7 +193,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     HiddenSurface hidden =
         find_hidden_surface(traced, echoes, view, objects, engine, directions,
                             request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
-    ShadowFinder of_all(hidden.pieces, view);
+    ShadowFinder all_finder(hidden.pieces, view);
     const auto find = [&](ShadowFinder& finder, std::vector<std::uint8_t> covered,
                           std::vector<std::uint16_t>& shadow) {
         for (int j = 0; j < view.beams; ++j)
@@ -201,7 +201,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     };
     if (request.shadow) {
         const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
-        find(of_all,
+        find(all_finder,
              by_triangles
                  ? covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
                                 traced.T_world_sensor, engine.body_poses())
@@ -213,9 +213,9 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
         std::erase_if(by_objects, [&](const HiddenPiece& piece) {
             return objects.is_background(piece.object);
         });
-        std::optional<ShadowFinder> of_objects;  // none: no background hides anything
-        if (by_objects.size() < hidden.pieces.size()) of_objects.emplace(by_objects, view);
-        find(of_objects ? *of_objects : of_all, hidden_bins(by_objects, bins, view.beams),
+        std::optional<ShadowFinder> object_finder;  // none: no background hides anything
+        if (by_objects.size() < hidden.pieces.size()) object_finder.emplace(by_objects, view);
+        find(object_finder ? *object_finder : all_finder, hidden_bins(by_objects, bins, view.beams),
              labels.object_shadow);
     }
     for (std::uint32_t k = 0; !request.shadow && k < hidden.visible_shares.size(); ++k) {

@@ -12,13 +12,13 @@ MaskFrame frame_of(const View& view, const ResolutionCell& cell) {
 }
 
 void MaskWindow::sum_within(const CellReach& reach) {
-    const auto along = [&](int count, int stride, int most) {
+    const auto along = [&](int count, int stride, int reach) {
         const std::vector<float> from = values;
-        for (int k = 0; most > 0 && k < std::ssize(from); ++k) {
+        for (int k = 0; reach > 0 && k < std::ssize(from); ++k) {
             const int at = k / stride % count;
-            const int last = std::min(most, count - 1 - at);
+            const int last = std::min(reach, count - 1 - at);
             float sum = 0.0F;
-            for (int d = std::max(-most, -at); d <= last; ++d)
+            for (int d = std::max(-reach, -at); d <= last; ++d)
                 sum += from[k + d * stride];
             values[k] = sum;
         }
@@ -49,11 +49,12 @@ std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const Cel
                                                std::span<const std::uint16_t> ids) {
     std::map<std::uint16_t, MaskWindow> out;
     for (int line = 0; line < frame.lines; ++line) {
-        const std::span<const std::uint16_t> of_line =
+        const std::span<const std::uint16_t> line_objects =
             ids.subspan(static_cast<std::size_t>(line) * frame.bins, frame.bins);
         for (int bin = 0; bin < frame.bins; ++bin) {
-            if (of_line[bin] == 0) continue;
-            MaskWindow& box = out.try_emplace(of_line[bin], MaskWindow{line, bin}).first->second;
+            if (line_objects[bin] == 0) continue;
+            MaskWindow& box =
+                out.try_emplace(line_objects[bin], MaskWindow{line, bin}).first->second;
             box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
             box.bin = std::min(box.bin, bin);
             box.lines = line + 1 - box.line;

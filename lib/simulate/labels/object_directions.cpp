@@ -63,8 +63,8 @@ bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float r
     return false;
 }
 
-std::size_t ObjectDirections::cell_of(double of_unit_vector) {
-    const double cell = std::floor(0.5 * (of_unit_vector + 1.0) * cells);
+std::size_t ObjectDirections::cell_of(double coordinate) {
+    const double cell = std::floor(0.5 * (coordinate + 1.0) * cells);
     return static_cast<std::size_t>(std::clamp(cell, 0.0, cells - 1.0));
 }
 

@@ -36,7 +36,7 @@ class ObjectDirections {
   private:
     static constexpr int cells = 128;  ///< along y and along z, from -1 to 1
 
-    static std::size_t cell_of(double of_unit_vector);
+    static std::size_t cell_of(double coordinate);
 
     Eigen::AlignedBox3d from_sensor_;  ///< `surface`, relative to the sensor, axes of the world
     Eigen::Matrix3d rotation_;         ///< from the sensor's frame to the world's

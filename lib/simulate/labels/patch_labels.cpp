@@ -48,10 +48,10 @@ void find_bins(const double* __restrict echo, const double* __restrict first,
         const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
         // d(theta) = d(sin theta) / cos(theta), limited to a half circle where cos is 0.
         const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
-        const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
+        const double divisor = std::max(std::max(cosine, deviation / pi), 1e-9);
         sines[i] = static_cast<float>(occupied ? sine : none);
         cosines[i] = static_cast<float>(cosine);
-        spread[i] = static_cast<float>(occupied ? deviation / least : none);
+        spread[i] = static_cast<float>(occupied ? deviation / divisor : none);
     }
     for (int i = 0; i < count; ++i) {
         const float angle = arctan2_float(sines[i], cosines[i]);

@@ -49,7 +49,7 @@ EchoSums sums_of(std::span<const HiddenPiece> pieces, const View& view) {
     EchoSums sums(range_bins(view), view.beams);
     EchoBlock block;
     block.intensity.fill(1.0F);
-    std::array<std::uint32_t, EchoBlock::most> objects;
+    std::array<std::uint32_t, EchoBlock::capacity> objects;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const int at = block.count++;
         const HiddenPiece& hidden = pieces[k];
@@ -58,7 +58,7 @@ EchoSums sums_of(std::span<const HiddenPiece> pieces, const View& view) {
         block.weight[at] = hidden.solid_angle;
         block.beam[at] = hidden.beam;
         objects[at] = hidden.object;
-        if (block.count < EchoBlock::most && k + 1 < pieces.size()) continue;
+        if (block.count < EchoBlock::capacity && k + 1 < pieces.size()) continue;
         sums.add(block, objects);
         block.count = 0;
     }

@@ -37,7 +37,7 @@ SightLine line_behind(const Sample& sample, const Arrival& place, float share_u,
 /// Chosen there.
 int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const LineWidth& width) {
     constexpr float along_beam = 2.0F;
-    constexpr float most = 64.0F;
+    constexpr float max_parts = 64.0F;
     // In sines the middle beam of a fan of 130 degrees is 1.25 mean widths wide.
     constexpr float wider = 0.3F;
     const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
@@ -45,7 +45,7 @@ int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const Line
     const float parts = std::max(std::fabs(across.y()) / static_cast<float>(width.beams),
                                  across.norm() / along_beam) /
                         beam_m;
-    return static_cast<int>(std::ceil(std::clamp(parts - wider, 1.0F, most)));
+    return static_cast<int>(std::ceil(std::clamp(parts - wider, 1.0F, max_parts)));
 }
 
 /// Makes a line cover the beams whose middles its part of the footprint covers.
@@ -140,9 +140,9 @@ float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& n
         return range_along(edge, line.direction, line.before_m, normal, range_m);
     };
     const float half = line.share_u * along(sample.edge_u) + line.share_v * along(sample.edge_v);
-    const float most = longest_half * range_m;
+    const float max_half = longest_half * range_m;
     // The quotient may be NaN for a plane that is seen edge-on.
-    return half < most ? half : most;
+    return half < max_half ? half : max_half;
 }
 
 }  // namespace sonarsim

@@ -153,10 +153,10 @@ CellReach closing_reach(const ResolutionCell& cell) {
 }
 
 /// Replaces each value by 1 if the sum of those within reach is at least `least`, else by 0.
-void sum_and_compare(MaskWindow& window, const CellReach& reach, float least) {
+void sum_and_compare(MaskWindow& window, const CellReach& reach, float min_size) {
     window.sum_within(reach);
     for (float& value : window.values)
-        value = value >= least ? 1.0F : 0.0F;
+        value = value >= min_size ? 1.0F : 0.0F;
 }
 
 /// Closes the gaps of a shape of ones, fills its holes and keeps the pieces for which keep(bins) is
@@ -181,7 +181,7 @@ void tidy(MaskWindow& shape, const CellReach& reach, Keep keep) {
 
 }  // namespace
 
-Ids find_bodies(const ExpectedBins& ping, std::span<const float> noise, float least_ratio) {
+Ids find_bodies(const ExpectedBins& ping, std::span<const float> noise, float min_ratio) {
     const ResolutionCell& cell = ping.frame.cell;
     const CellReach reach(cell);
     const auto scale = static_cast<float>(cell.range_bins * cell.beams) / reach.count();
@@ -191,12 +191,12 @@ Ids find_bodies(const ExpectedBins& ping, std::span<const float> noise, float le
         window.for_each(ping.frame, [&](float& more, std::size_t k) {
             if (ping.object[k] != object) return;
             const float rest = std::max(ping.whole[k] - ping.echo[k], 0.0F);
-            more = scale * (ping.echo[k] - least_ratio * rest);
+            more = scale * (ping.echo[k] - min_ratio * rest);
         });
         window.sum_within(reach);
         window.for_each(ping.frame, [&](float more, std::size_t k) {
             const float bare = noise.empty() ? 0.0F : noise[k % ping.frame.bins];
-            if (ping.object[k] == object && more >= least_ratio * bare) out[k] = object;
+            if (ping.object[k] == object && more >= min_ratio * bare) out[k] = object;
         });
     }
     return out;
@@ -258,7 +258,7 @@ void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> v
 Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow,
                  std::span<const std::uint8_t> has_shadow) {
     const CellReach reach = closing_reach(frame.cell);
-    const float least = CellReach(frame.cell).count();
+    const float min_size = CellReach(frame.cell).count();
     Ids both = ids;
     for (std::size_t k = 0; k < both.size(); ++k) {
         if (both[k] == 0 && has_shadow[shadow[k]] != 0) both[k] = shadow[k];
@@ -273,7 +273,7 @@ Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow,
             if (ids[k] == object) has_object[k / frame.bins - window.line] = 1;
         });
         tidy(shape, reach, [&](const std::vector<int>& piece) {
-            return static_cast<float>(piece.size()) >= least &&
+            return static_cast<float>(piece.size()) >= min_size &&
                    std::ranges::any_of(piece,
                                        [&](int k) { return has_object[k / window.bins] != 0; });
         });

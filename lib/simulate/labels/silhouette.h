@@ -20,7 +20,7 @@ struct ExpectedBins {
 /// `least_ratio` times that of all other surface there and `noise`, the mean noise of a cell by
 /// range bin, which may be empty. Bins without an echo of an object do not matter.
 std::vector<std::uint16_t> find_bodies(const ExpectedBins& ping, std::span<const float> noise,
-                                       float least_ratio);
+                                       float min_ratio);
 
 /// Adds to bodies the bins of `bright` that they do not have, such as the foot of a wall, but not
 /// whiskers: with the body of the same id they fill squares of three bins, or stretches of three in

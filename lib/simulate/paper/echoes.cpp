@@ -122,9 +122,9 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
     const bool named = lattice.exists();
     std::size_t end = 0;
     Footprints footprints;
-    for (std::size_t begin = 0; begin < samples.size(); begin += Footprints::most) {
-        const auto block =
-            samples.subspan(begin, std::min<std::size_t>(Footprints::most, samples.size() - begin));
+    for (std::size_t begin = 0; begin < samples.size(); begin += Footprints::capacity) {
+        const auto block = samples.subspan(
+            begin, std::min<std::size_t>(Footprints::capacity, samples.size() - begin));
         cut_footprints(block, materials, bin_m, lattice, footprints);
         for (std::size_t k = 0; k < block.size(); ++k) {
             const int count = static_cast<int>(footprints.u[k] * footprints.v[k]);
@@ -148,9 +148,9 @@ std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
     std::fill(intensity.begin() + sums.end, intensity.end(), 0.0F);
     for (std::size_t i = first; i < end; ++i) {
         const float weight = sums.weight(i);
-        const bool seen = weight > 0.0F;
-        intensity[i] = seen ? sums.echo(i) / weight : 0.0F;
-        occupied += seen ? 1 : 0;
+        const bool visible = weight > 0.0F;
+        intensity[i] = visible ? sums.echo(i) / weight : 0.0F;
+        occupied += visible ? 1 : 0;
     }
     return occupied;
 }

@@ -32,8 +32,8 @@ HeightRange height_range(const std::vector<float>& z) {
     std::ranges::sort(known);
     const std::size_t skip = known.size() / 100;
     const float low = known[skip];
-    const float least = std::max(1e-3F, 1e-6F * std::fabs(low));
-    return {low, std::max(known[known.size() - 1 - skip], low + least)};
+    const float min_span = std::max(1e-3F, 1e-6F * std::fabs(low));
+    return {low, std::max(known[known.size() - 1 - skip], low + min_span)};
 }
 
 struct Slope {

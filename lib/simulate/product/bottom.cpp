@@ -21,11 +21,11 @@ class SmoothedColumn {
         std::vector<float> sorted = mean_;
         const auto level = sorted.end() - 1 - static_cast<int>(brighter * (size() - 1));
         std::nth_element(sorted.begin(), level, sorted.end());
-        return *level > 0.0F ? *level : greatest(size());
+        return *level > 0.0F ? *level : max_level(size());
     }
 
     /// The greatest running mean of the first bins.
-    float greatest(int bins) const {
+    float max_level(int bins) const {
         return bins > 0 ? *std::max_element(mean_.begin(), mean_.begin() + bins) : 0.0F;
     }
 
@@ -67,7 +67,7 @@ std::optional<int> first_return_of_swath(std::span<const float> column) {
     if (!half_way) return std::nullopt;
     const SmoothedColumn smoothed(column);
     const float bottom = smoothed.level(brighter);
-    const float water = smoothed.greatest(2 * *half_way / 3);
+    const float water = smoothed.max_level(2 * *half_way / 3);
     const float between = std::max(std::sqrt(water * bottom), faintest * bottom);
     return between < clear * bottom ? smoothed.edge(between) : *half_way;
 }

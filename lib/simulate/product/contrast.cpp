@@ -77,9 +77,9 @@ void add_surroundings(const LevelMap& map, const BinBox& box,
 
 double decibel_of(double ratio) {
     constexpr double limit_db = 100.0;
-    constexpr double least = 1e-10;
-    if (!(ratio > least)) return -limit_db;
-    if (!(ratio < 1.0 / least)) return limit_db;
+    constexpr double min_ratio = 1e-10;
+    if (!(ratio > min_ratio)) return -limit_db;
+    if (!(ratio < 1.0 / min_ratio)) return limit_db;
     return db_of_e * natural_log(static_cast<float>(ratio));
 }
 
@@ -181,14 +181,14 @@ std::vector<std::uint16_t> visible_shadows(const LevelMap& map,
         std::vector<RangeLevels> ranges = marked_levels(map, map.shadow, id, box);
         add_surroundings(map, box, is_background, ranges);
         double sum = 0.0;
-        double greatest = 0.0;
+        double max_sum = 0.0;
         std::size_t end = 0;
         for (std::size_t k = 0; k < ranges.size(); ++k) {
             const RangeLevels& range = ranges[k];
             if (range.count == 0 || range.count_around == 0) continue;
             sum += dark * range.level_around / range.count_around * range.count - range.level;
-            if (sum <= greatest) continue;
-            greatest = sum;
+            if (sum <= max_sum) continue;
+            max_sum = sum;
             end = k + 1;
         }
         for (int line = box.first_line; line <= box.last_line; ++line) {

@@ -16,8 +16,8 @@ constexpr int min_height = 400;
 constexpr Rgb echo_colours[] = {{8, 10, 40},    {20, 50, 130},  {20, 120, 190}, {60, 190, 150},
                                 {230, 220, 80}, {240, 130, 40}, {190, 20, 30}};
 
-int pixels_per_bin(int least, int bins) {
-    return std::max(1, (least + bins - 1) / std::max(1, bins));
+int pixels_per_bin(int min_pixels, int bins) {
+    return std::max(1, (min_pixels + bins - 1) / std::max(1, bins));
 }
 
 }  // namespace

@@ -46,11 +46,11 @@ class LastResults {
   public:
     template <class Make>
     Result get(Arguments arguments, Make make) {
-        constexpr std::size_t most = 4;  // sonars of one vehicle
+        constexpr std::size_t capacity = 4;  // sonars of one vehicle
         const std::lock_guard lock(mutex_);
         auto found = std::ranges::find(kept_, arguments, &std::pair<Arguments, Result>::first);
         if (found == kept_.end()) {
-            if (kept_.size() == most) kept_.erase(kept_.begin());
+            if (kept_.size() == capacity) kept_.erase(kept_.begin());
             kept_.emplace_back(std::move(arguments), make());
             found = kept_.end() - 1;
         }

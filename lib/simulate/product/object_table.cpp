@@ -19,15 +19,15 @@ struct BinTotals {
 };
 
 /// Adds the bins [from, to) of beam j.
-void add_bins(ObjectInPing& seen, int from, int to, int j) {
-    if (seen.bins == 0) {
-        seen.range_first = from;
-        seen.beam_first = j;
+void add_bins(ObjectInPing& visible, int from, int to, int j) {
+    if (visible.bins == 0) {
+        visible.range_first = from;
+        visible.beam_first = j;
     }
-    seen.range_first = std::min(seen.range_first, from);
-    seen.range_last = std::max(seen.range_last, to - 1);
-    seen.beam_last = j;
-    seen.bins += static_cast<std::uint64_t>(to - from);
+    visible.range_first = std::min(visible.range_first, from);
+    visible.range_last = std::max(visible.range_last, to - 1);
+    visible.beam_last = j;
+    visible.bins += static_cast<std::uint64_t>(to - from);
 }
 
 /// Adds the bins [from, to) of a beam one by one, since the order decides the last digits. The
@@ -52,14 +52,14 @@ void for_each_run(std::span<const std::uint16_t> ids, Visit visit) {
     }
 }
 
-BinBox bins_of(const ObjectInPing& seen) {
-    return {seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
+BinBox bins_of(const ObjectInPing& visible) {
+    return {visible.beam_first, visible.beam_last, visible.range_first, visible.range_last};
 }
 
 /// The mean level around an object; nothing if all bins there are its own.
-std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map) {
-    const auto id = static_cast<std::uint16_t>(seen.id);
-    const BinBox box = over_seam(map, map.object, id, bins_of(seen));
+std::optional<double> level_around(const ObjectInPing& visible, const LevelMap& map) {
+    const auto id = static_cast<std::uint16_t>(visible.id);
+    const BinBox box = over_seam(map, map.object, id, bins_of(visible));
     const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
     const int rows = margin_of(box.first_bin, box.last_bin);
     const int columns = margin_of(box.first_line, box.last_line);
@@ -155,12 +155,12 @@ class Contrasts {
     Contrasts(const LevelMap& map, std::span<const std::uint8_t> is_background)
         : map_(map), is_background_(is_background) {}
 
-    void add_to(ObjectInPing& seen) const {
-        const auto id = static_cast<std::uint16_t>(seen.id);
-        seen.contrast_db = contrast_db(map_, map_.object, id, bins_of(seen), is_background_);
-        if (!seen.shadow.is_empty()) {
-            seen.shadow_contrast_db =
-                contrast_db(map_, map_.shadow, id, seen.shadow, is_background_);
+    void add_to(ObjectInPing& visible) const {
+        const auto id = static_cast<std::uint16_t>(visible.id);
+        visible.contrast_db = contrast_db(map_, map_.object, id, bins_of(visible), is_background_);
+        if (!visible.shadow.is_empty()) {
+            visible.shadow_contrast_db =
+                contrast_db(map_, map_.shadow, id, visible.shadow, is_background_);
         }
     }
 
@@ -231,7 +231,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     add_shadows(labels, fan_boxes, all);
     const Contrasts contrasts(map, is_background);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
-    std::vector<ObjectInPing> seen;
+    std::vector<ObjectInPing> visible;
     for (std::size_t k = 0; k < all.size(); ++k) {
         ObjectInPing& object = all[k];
         if (object.bins == 0) continue;
@@ -244,9 +244,9 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         object.surrounding_level = level_around(object, map);
         object.box_sensor_m = boxes[k];
         contrasts.add_to(object);
-        seen.push_back(object);
+        visible.push_back(object);
     }
-    return seen;
+    return visible;
 }
 
 }  // namespace sonarsim

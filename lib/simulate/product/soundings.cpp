@@ -71,13 +71,13 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
 /// may be.
 void divide_by_background(std::span<double> beam, std::span<const float> noise) {
     constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
-    constexpr double least = 1e-30;
+    constexpr double min_power = 1e-30;
     std::vector<double> excess(beam.size());
     for (std::size_t i = 0; i < beam.size(); ++i)
         excess[i] = beam[i] - median_share * noise[i];
     const auto middle = excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2);
     std::nth_element(excess.begin(), middle, excess.end());
-    const double constant = std::max(*middle, least);
+    const double constant = std::max(*middle, min_power);
     for (std::size_t i = 0; i < beam.size(); ++i)
         beam[i] /= constant + noise[i];
 }
@@ -125,16 +125,16 @@ class Contrast {
         DetectedReturn best;
         for (int length = 1; from + length <= to; length *= 2) {
             const int step = std::max(length / 2, 1);
-            double most = 0.0;
+            double max_sum = 0.0;
             int at = from;
             for (int begin = from; begin + length <= to; begin += step) {
                 const double sum = sums_[begin + length] - sums_[begin];
-                if (sum > most) {
-                    most = sum;
+                if (sum > max_sum) {
+                    max_sum = sum;
                     at = begin;
                 }
             }
-            const double contrast = most / std::sqrt(static_cast<double>(length));
+            const double contrast = max_sum / std::sqrt(static_cast<double>(length));
             if (contrast > best.contrast) best = {at, at + length, contrast, 0.0};
         }
         return best;

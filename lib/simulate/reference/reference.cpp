@@ -35,8 +35,8 @@ int first_count(const View& view, int per_beam, const ReferenceGoal& goal) {
     constexpr int fewest = 8;
     constexpr double rays_per_direction = 1.5 * independent_casts;  // points for half as many rays
     const double columns = static_cast<double>(view.beams) * per_beam;
-    const double most = static_cast<double>(goal.rays_max) / (rays_per_direction * columns);
-    return static_cast<int>(std::clamp(most, double{fewest}, double{usual}));
+    const double affordable = static_cast<double>(goal.rays_max) / (rays_per_direction * columns);
+    return static_cast<int>(std::clamp(affordable, double{fewest}, double{usual}));
 }
 
 /// A bin's sums of all casts.

@@ -151,10 +151,10 @@ void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& seco
         sights.push_back({at, std::fabs(context.true_change(second.normal).dot(at.normalized())),
                           second.rounding_m});
     }
-    const std::vector<bool> seen = context.engine.seen(context.T_world_sensor, sights);
+    const std::vector<bool> visible = context.engine.visible(context.T_world_sensor, sights);
     counts.rays += sights.size();
     counts.hidden +=
-        std::erase_if(bounces, [&](const BouncePath& b) { return !seen[sight_of[b.ray]]; });
+        std::erase_if(bounces, [&](const BouncePath& b) { return !visible[sight_of[b.ray]]; });
 }
 
 /// Follows the sound of all samples to the second surfaces that `context` allows.

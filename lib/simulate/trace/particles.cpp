@@ -52,9 +52,9 @@ void add_particles(const Particles& particles, double time_s, const View& view,
                           .number = k,
                           .kind = SampleKind::particle});
     }
-    const std::vector<bool> seen = engine.seen(T_world_sensor, sights);
+    const std::vector<bool> visible = engine.visible(T_world_sensor, sights);
     for (std::size_t k = 0; k < points.size(); ++k) {
-        if (!seen[k]) continue;
+        if (!visible[k]) continue;
         samples.items.push_back(points[k]);
         if (!motion.is_still()) move_point(motion, view.shape, samples.items.back());
     }

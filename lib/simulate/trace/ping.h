@@ -31,7 +31,7 @@ struct PingDraws {
 
     PhiloxKey of(Stream stream) const { return stream_key(seed, sensor, ping, stream); }
     /// Draws that belong to the scene: the same for all sonars and pings.
-    PhiloxKey of_scene(Stream stream) const { return stream_key(seed, 0, 0, stream); }
+    PhiloxKey scene_key(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };
 
 /// The terms of an echo model that an image is made of. A term that the sonar's settings do not use

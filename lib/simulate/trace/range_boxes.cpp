@@ -21,7 +21,7 @@ struct Boxes {
     std::array<Pair, boxes_per_block> density;      ///< per bin: area, and area times intensity
     std::array<Pair, boxes_per_block> share;        ///< shares of the first and the second bin
     std::array<float, boxes_per_block> last_share;  ///< share of the last bin
-    int least, greatest;                            ///< the least `first`, the greatest `last`
+    int min_bin, max_bin;                           ///< the least `first`, the greatest `last`
 };
 
 /// The arrays of `count` echoes.
@@ -45,8 +45,8 @@ struct BoxArrays {
     const float* const __restrict weight = echoes.weight;
     const float* const __restrict intensity = echoes.intensity;
     int outside = 0;
-    int least = bins.count;
-    int greatest = 0;
+    int min_bin = bins.count;
+    int max_bin = 0;
     for (std::size_t k = 0; k < echoes.count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
         const float half = std::max(half_m[k] * per_bin, min_half);
@@ -67,14 +67,14 @@ struct BoxArrays {
         const float next = last - first > 1.0F ? 1.0F : tail;
         boxes.first[k] = static_cast<int>(first);
         boxes.last[k] = static_cast<int>(last);
-        least = std::min(least, boxes.first[k]);
-        greatest = std::max(greatest, boxes.last[k]);
+        min_bin = std::min(min_bin, boxes.first[k]);
+        max_bin = std::max(max_bin, boxes.last[k]);
         boxes.density[k] = {density, echo};
         boxes.share[k] = {head, next};
         boxes.last_share[k] = tail;
     }
-    boxes.least = least;
-    boxes.greatest = greatest;
+    boxes.min_bin = min_bin;
+    boxes.max_bin = max_bin;
     return outside;
 }
 
@@ -138,7 +138,7 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
         outside += find_boxes({echoes.range_m.data() + from, echoes.half_m.data() + from,
                                echoes.weight.data() + from, echoes.intensity.data() + from, count},
                               bins, boxes);
-        sums.include(boxes.least, boxes.greatest + 1);
+        sums.include(boxes.min_bin, boxes.max_bin + 1);
         // Most boxes have one or two bins. Both kinds take the same path: a branch between them
         // would be mispredicted half the time.
         for (std::size_t k = 0; k < count; ++k) {

@@ -73,15 +73,15 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
 
 /// Echoes as in RangeBoxes, each in a beam and from a sample.
 struct EchoBlock {
-    static constexpr int most = 256;
+    static constexpr int capacity = 256;
 
     int count = 0;
     bool multipath = false;     ///< all came over a second surface; samples reflect the sound
     bool behind_walls = false;  ///< all came through walls: their bins may lie in a shadow
-    std::array<float, most> range_m, half_m, weight, intensity;
-    std::array<std::uint32_t, most> beam;
-    std::array<const Sample*, most> sample;
-    std::array<std::uint32_t, most> second;  ///< BouncePath::instance of multipath
+    std::array<float, capacity> range_m, half_m, weight, intensity;
+    std::array<std::uint32_t, capacity> beam;
+    std::array<const Sample*, capacity> sample;
+    std::array<std::uint32_t, capacity> second;  ///< BouncePath::instance of multipath
 };
 
 /// Sums of echoes by source, beam and range bin. Boxes are spread over the bins as by accumulate().

@@ -24,7 +24,7 @@ class EchoBlocks {
 
     void add(std::uint32_t beam, float range_m, float half_m, float weight, float intensity,
              const Sample* sample, std::uint32_t second = no_instance) {
-        if (block_.count == EchoBlock::most) flush();
+        if (block_.count == EchoBlock::capacity) flush();
         const int k = block_.count++;
         block_.beam[k] = beam;
         block_.range_m[k] = range_m;

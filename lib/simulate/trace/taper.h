@@ -28,8 +28,8 @@ inline Taper taper_of(const Sample& sample, std::optional<ViewShape> shape) {
     const float u = from_axis.dot(sample.edge_u) / distance2;
     const float v = from_axis.dot(sample.edge_v) / distance2;
     // A footprint that reaches the axis has no width there.
-    const float most = std::max(1.0F, std::fabs(u) + std::fabs(v));
-    return {u / most, v / most};
+    const float reach = std::max(1.0F, std::fabs(u) + std::fabs(v));
+    return {u / reach, v / reach};
 }
 
 /// The taper of a footprint with its wedge. Where both narrow one end, it has no width there.

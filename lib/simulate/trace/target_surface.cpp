@@ -48,7 +48,7 @@ using Corners = std::array<Corner, 3>;
 
 /// A lower bound of the length of `off` on a triangle. A highlight lies where it is shorter than a
 /// few slopes of the material.
-float least_off(const Corners& corners) {
+float min_off(const Corners& corners) {
     const Eigen::Vector3f middle = (corners[0].off + corners[1].off + corners[2].off) / 3.0F;
     float spread2 = 0.0F;
     for (const Corner& corner : corners)
@@ -73,7 +73,8 @@ class TargetSampler {
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
         if (range < min_distance_by_radius * radius ||
-            volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
+            volume_.contains_in_sensor_frame(centre, radius + volume_.rounding_m()) ==
+                Containment::outside)
             return false;
         const float cell = std::max(static_cast<float>(resolved_width_rad(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
@@ -90,11 +91,11 @@ class TargetSampler {
     }
 
     /// The pieces that are seen.
-    std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
-        const std::vector<bool> seen = engine.seen(T_world_sensor, sights_);
+    std::vector<Sample> take_visible(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+        const std::vector<bool> visible = engine.visible(T_world_sensor, sights_);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
-            if (seen[sight_of_[k]]) pieces_[kept++] = pieces_[k];
+            if (visible[sight_of_[k]]) pieces_[kept++] = pieces_[k];
         }
         pieces_.resize(kept);
         return std::move(pieces_);
@@ -132,7 +133,7 @@ class TargetSampler {
     /// with a normal that turns by about a slope. `may_glint`: a highlight may lie on the whole
     /// that it is a part of.
     void halve(const Corners& corners, int halvings, bool may_glint) {
-        const bool glints = may_glint && least_off(corners) <= highlight_slopes * slope_;
+        const bool glints = may_glint && min_off(corners) <= highlight_slopes * slope_;
         const float per_part = 1.0F / part_m_;
         const float per_turn = glints ? 1.0F / slope_ : 0.0F;
         int longest = -1;
@@ -244,7 +245,7 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view, const
             out.instances.push_back(placed.instance);
     }
     std::ranges::sort(out.instances);
-    if (!out.instances.empty()) out.pieces = sampler.take_seen(engine, T_world_sensor);
+    if (!out.instances.empty()) out.pieces = sampler.take_visible(engine, T_world_sensor);
     return out;
 }
 

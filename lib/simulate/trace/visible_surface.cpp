@@ -43,10 +43,10 @@ std::vector<std::uint32_t> repeat_offsets(std::span<const std::uint32_t> begins,
 }
 
 /// Adds the surface that the engine sees in the guard beams on one side of the view.
-void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_side,
+void add_guard_side(const View& view, const Samples& visible, const Pose& T_sensor_side,
                     Samples& out) {
     const Eigen::Matrix3f R = T_sensor_side.rotation.toRotationMatrix().cast<float>();
-    for (Sample sample : seen.items) {
+    for (Sample sample : visible.items) {
         sample.position = R * sample.position;
         if (!in_array_cones(view, sample.position)) continue;
         sample.edge_u = R * sample.edge_u;
@@ -54,7 +54,7 @@ void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_
         sample.normal = R * sample.normal;
         out.items.push_back(sample);
     }
-    out.dropped += seen.dropped;
+    out.dropped += visible.dropped;
 }
 
 }  // namespace

@@ -132,9 +132,9 @@ void add_water_surface(const View& view, const Scene& scene, const VisibilityEng
     std::vector<SightPoint> sights;
     for (const Sample& cell : cells)
         sights.push_back({cell.position});
-    const std::vector<bool> seen = engine.seen(T_world_sensor, sights);
+    const std::vector<bool> visible = engine.visible(T_world_sensor, sights);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (!seen[k]) continue;
+        if (!visible[k]) continue;
         samples.items.push_back(cells[k]);
         if (motion.is_still()) continue;
         Eigen::Vector3f& place = samples.items.back().position;

@@ -97,8 +97,8 @@ class TriangleRuns {
         const Eigen::Vector3f t = T_sensor_mesh.translation().cast<float>();
         const float scale = R.col(0).norm();
         const auto outside = [&](const Ball& ball) {
-            return volume.of_sensor_frame(R * ball.centre + t,
-                                          scale * ball.radius_m + volume.rounding_m()) ==
+            return volume.contains_in_sensor_frame(R * ball.centre + t,
+                                                   scale * ball.radius_m + volume.rounding_m()) ==
                    Containment::outside;
         };
         if (mesh.triangles.empty() || outside(mesh.whole)) return;

@@ -28,12 +28,12 @@ struct ViewPolygon {
 
 /// Least and greatest distance from the sonar, m; least > greatest if it is empty.
 struct RangeInterval {
-    float least = std::numeric_limits<float>::infinity();
-    float greatest = -std::numeric_limits<float>::infinity();
+    float min_m = std::numeric_limits<float>::infinity();
+    float max_m = -std::numeric_limits<float>::infinity();
 
     void include(float range_m) {
-        least = std::min(least, range_m);
-        greatest = std::max(greatest, range_m);
+        min_m = std::min(min_m, range_m);
+        max_m = std::max(max_m, range_m);
     }
 };
 
@@ -116,8 +116,8 @@ class CoveredBins {
 
     void mark(int beam, const RangeInterval& ranges) {
         const auto count = static_cast<float>(count_);
-        const float from = (ranges.least - min_m_) * per_m_;
-        const float to = (ranges.greatest - min_m_) * per_m_;
+        const float from = (ranges.min_m - min_m_) * per_m_;
+        const float to = (ranges.max_m - min_m_) * per_m_;
         if (!(from < count && to >= 0.0F)) return;
         int first = static_cast<int>(std::max(from, 0.0F));
         int last = static_cast<int>(std::min(to, count - 1.0F));

@@ -37,14 +37,14 @@ struct Candidate {
 /// A ray and the nearest facets that it has met.
 struct TracedRay {
     // At a place where more facets meet, the nearest of them count.
-    static constexpr int most = 8;
+    static constexpr int capacity = 8;
 
     Eigen::Vector3f origin, direction;
     float origin_m;  ///< sum of the origin's absolute coordinates
     float reach_m;
     int count;
     float nearest_m;
-    std::array<Candidate, most> met;
+    std::array<Candidate, capacity> met;
 
     /// Largest difference of Embree's distance of a facet, and of another facet that coincides,
     /// from ours. Rounding alone is a thousandth of it, except at an incidence of 0.05 degrees.
@@ -74,7 +74,7 @@ struct TracedRay {
         } else if (found.distance_m > embree_reach(nearest_m)) {
             return false;
         }
-        if (count < most) {
+        if (count < capacity) {
             met[count++] = found;
         } else {
             Candidate& farthest = *std::ranges::max_element(met, std::less<>());

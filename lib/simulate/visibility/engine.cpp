@@ -61,8 +61,8 @@ void VisibilityEngine::intersect(const Pose& T_world_sensor, std::span<const Ray
     }
 }
 
-std::vector<bool> VisibilityEngine::seen(const Pose& T_world_sensor,
-                                         std::span<const SightPoint> points) const {
+std::vector<bool> VisibilityEngine::visible(const Pose& T_world_sensor,
+                                            std::span<const SightPoint> points) const {
     constexpr float min_cosine = 1e-3F;
     const LocalPose pose = local_pose(T_world_sensor, scene_.origin);
     std::vector<Eigen::Vector3f> directions;

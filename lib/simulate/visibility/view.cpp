@@ -75,7 +75,7 @@ ViewVolume::ViewVolume(const View& view, const Pose& T_local_sensor)
     cos_elevation_ = static_cast<float>(elevation.cos);
 }
 
-Containment ViewVolume::of_sensor_frame(const Eigen::Vector3f& p, float radius) const {
+Containment ViewVolume::contains_in_sensor_frame(const Eigen::Vector3f& p, float radius) const {
     const float beyond_reach = p.norm() - reach_m_;
     // Distances from the half plane of the outermost azimuth and from the cone of the outermost
     // elevation, positive outside; symmetry reduces both to one side.

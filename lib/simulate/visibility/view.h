@@ -103,17 +103,17 @@ class ViewVolume {
 
     /// Position of the ball relative to the volume. `outside` and `inside` are certain.
     Containment containment(const Eigen::Vector3f& centre, float radius) const {
-        return of_sensor_frame(R_sensor_local_ * centre, radius);
+        return contains_in_sensor_frame(R_sensor_local_ * centre, radius);
     }
 
     /// The same for a cube, by the ball around it: slightly more than half its diagonal, for
     /// rounding.
-    Containment of_cube(const Eigen::Vector3f& centre, float edge) const {
+    Containment contains_cube(const Eigen::Vector3f& centre, float edge) const {
         return containment(centre, 0.8661F * edge + rounding_m());
     }
 
     /// The same with `centre` in the sensor frame.
-    Containment of_sensor_frame(const Eigen::Vector3f& centre, float radius) const;
+    Containment contains_in_sensor_frame(const Eigen::Vector3f& centre, float radius) const;
 
     /// More than the error of a position within the range: four roundings of 6e-8 of the range.
     float rounding_m() const { return 1e-6F * reach_m_; }

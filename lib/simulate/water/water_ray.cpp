@@ -122,11 +122,11 @@ double advance(const SoundProfile& profile, double longest_m, WaterRay& ray) {
         ray = on_arc(profile, ray, length);
         return length;
     }
-    const double least = level_share * length;
-    if (to_node < least && std::fabs(sincos(ray.elevation_rad).sin) < level_sine) {
-        ray = on_arc(profile, ray, least);
+    const double min_length = level_share * length;
+    if (to_node < min_length && std::fabs(sincos(ray.elevation_rad).sin) < level_sine) {
+        ray = on_arc(profile, ray, min_length);
         ray.layer = profile.layer_of(ray.height_m);
-        return least;
+        return min_length;
     }
     ray = on_arc(profile, ray, to_node);
     cross(profile, up < down, ray);

@@ -27,13 +27,13 @@ double spectrum_at(const Seabed& bed, double kx, double ky) {
     std::complex<double> sum;
     double weight_y = 0.0;
     for (int row = 0; row < grid.rows; ++row) {
-        std::complex<double> of_row;
+        std::complex<double> row_sum;
         const float* z = &bed.heights[static_cast<std::size_t>(row) * across.size()];
         for (std::size_t i = 0; i < across.size(); ++i)
-            of_row += across[i] * static_cast<double>(z[i]);
+            row_sum += across[i] * static_cast<double>(z[i]);
         const double w = window(row, grid.rows);
         weight_y += w * w;
-        sum += of_row * w * std::polar(1.0, -ky * grid.y_m(row));
+        sum += row_sum * w * std::polar(1.0, -ky * grid.y_m(row));
     }
     const double cell = grid.cell_m;
     return std::norm(sum) * cell * cell / (4.0 * pi * pi * weight_x * weight_y);

@@ -4,7 +4,7 @@
 using namespace sonarsim;
 using test::area_of;
 using test::fan_view;
-using test::seen;
+using test::visible;
 
 namespace {
 
@@ -57,14 +57,14 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
             shapes::add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F},
                              {11.0F, 9.0F, 9.0F}, {11.0F, -9.0F, 9.0F}, wall);
         }
-        double of_hard = 0.0;
-        double of_floor = 0.0;
-        const Samples samples = seen(scene, view, Pose{});
+        double hard_m2 = 0.0;
+        double floor_m2 = 0.0;
+        const Samples samples = visible(scene, view, Pose{});
         for (const Sample& sample : samples.items) {
-            if (sample.material == hard) of_hard += sample.area_m2;
-            if (sample.material <= soft) of_floor += sample.area_m2;
+            if (sample.material == hard) hard_m2 += sample.area_m2;
+            if (sample.material <= soft) floor_m2 += sample.area_m2;
         }
-        CHECK(std::fabs(of_hard / of_floor - static_cast<double>(share)) < 3e-3);
+        CHECK(std::fabs(hard_m2 / floor_m2 - static_cast<double>(share)) < 3e-3);
     }
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("strips: a corner that enters the view within a beam is seen") {
         const Eigen::Vector3f b(5.0F, y + 5.0F * beam, low - 49.0F * height);
         Scene scene = shapes::empty_scene();
         shapes::add_quad(scene, tip, a, b, b, shapes::add_material(scene, 0.5F));
-        CHECK(area_of(seen(scene, view, Pose{})) > 0.0);
+        CHECK(area_of(visible(scene, view, Pose{})) > 0.0);
     }
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("strips: a corner of surface and the border of the view is seen") {
             (std::asin(at.z() / at.norm()) < 0.5 * view.elevation_rad ? low : high) = at.z();
         }
         float farthest = 0.0F;
-        for (const Sample& sample : seen(scene, view, Pose{}).items) {
+        for (const Sample& sample : visible(scene, view, Pose{}).items) {
             const Eigen::Vector3f to = sample.position.normalized();
             farthest =
                 std::max(farthest, sample.position.norm() + std::fabs(sample.edge_u.dot(to)) +
@@ -145,7 +145,7 @@ TEST_CASE("strips: a cable ends in range where its corners do") {
         float farthest = 0.0F;
         for (const Eigen::Vector3f& p : scene.vertices)
             farthest = std::max(farthest, p.norm());
-        for (const Sample& sample : seen(scene, view, Pose{}).items) {
+        for (const Sample& sample : visible(scene, view, Pose{}).items) {
             for (const float u : {-1.0F, 1.0F}) {
                 for (const float v : {-1.0F, 1.0F}) {
                     const Eigen::Vector3f corner =

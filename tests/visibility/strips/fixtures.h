@@ -9,7 +9,7 @@ inline View fan_view() {
     return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
 }
 
-inline Samples seen(const Scene& scene, const View& view, const Pose& pose = {}) {
+inline Samples visible(const Scene& scene, const View& view, const Pose& pose = {}) {
     return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
 }
 

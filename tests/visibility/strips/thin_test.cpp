@@ -7,7 +7,7 @@
 using namespace sonarsim;
 using test::area_of;
 using test::fan_view;
-using test::seen;
+using test::visible;
 
 namespace {
 
@@ -123,7 +123,7 @@ TEST_CASE("strips: a pole at the very border of the view ends its last beam once
         const float right = 5.0F - ulp * static_cast<float>(k / 4);
         shapes::add_box(scene, {5.0F, left, -0.5F}, {5.0F + ulp, right, 0.5F},
                         shapes::add_material(scene, 1.0F));
-        const Samples samples = seen(scene, view, Pose{});
+        const Samples samples = visible(scene, view, Pose{});
         REQUIRE(samples.beam_begin.size() == 5);
         CHECK(std::ranges::is_sorted(samples.beam_begin));
         CHECK(samples.beam_begin.back() == samples.items.size());
@@ -152,11 +152,11 @@ TEST_CASE("strips: a grazing tread with an oblique near edge has its area in the
                        {far, 0.5F, low}, {far - 1.5F + 0.5F * slope, 0.5F, low}, rock);
         test::add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
                        {far, -0.5F, low + h}, rock);
-        const std::vector<float> image = mean_echoes(scene, view, seen(scene, view, Pose{}));
+        const std::vector<float> image = mean_echoes(scene, view, visible(scene, view, Pose{}));
         for (const int beam : {31, 32}) {
             const double intensity = image[last_bin * view.beams + beam];
-            const auto of_riser = static_cast<double>(0.5F * h / (h + d));
-            CHECK(std::fabs(intensity - of_riser) < 0.04);
+            const auto riser_share = static_cast<double>(0.5F * h / (h + d));
+            CHECK(std::fabs(intensity - riser_share) < 0.04);
         }
     }
 }
@@ -169,7 +169,7 @@ TEST_CASE("strips: a face that is seen nearly edge-on keeps its area") {
                        {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m},
                        test::add_material(scene, 1.0F));
         CAPTURE(depth_m);
-        CHECK(area_of(seen(scene, fan_view(), Pose{})) == test::approx(0.04).epsilon(0.02));
+        CHECK(area_of(visible(scene, fan_view(), Pose{})) == test::approx(0.04).epsilon(0.02));
     }
 }
 
@@ -186,14 +186,14 @@ TEST_CASE("strips: no face of a stay stands for many times its area") {
         const StripsEngine engine(scene, Caster(scene));
         for (const double goal : {0.03, 0.01, 0.004}) {
             view.relative_l1 = goal;
-            std::vector<float> seen(areas.size(), 0.0F);
+            std::vector<float> visible(areas.size(), 0.0F);
             for (const Sample& sample : engine.visible_surface(view, Pose{}).items)
-                seen[sample.instance] += sample.area_m2;
-            float most = 0.0F;
+                visible[sample.instance] += sample.area_m2;
+            float max_share = 0.0F;
             for (std::size_t k = 0; k < areas.size(); ++k)
-                most = std::max(most, seen[k] / areas[k]);
+                max_share = std::max(max_share, visible[k] / areas[k]);
             CAPTURE_ALL(seed, goal);
-            CHECK(most < 1.1F);
+            CHECK(max_share < 1.1F);
         }
     }
 }

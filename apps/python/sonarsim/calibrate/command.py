@@ -14,7 +14,7 @@ from .fan_fit import LAWS, RING_ERROR, RING_ERROR_USUAL, fit_fans, vary_block
 from .fans import read_fans
 from .image import fit_image, joined
 from .judge import figures_of
-from .judge_pass import MOST_WHITE, check_judged, is_worse, judge
+from .judge_pass import MAX_WHITE, check_judged, is_worse, judge
 from .law import full_value_of
 from .levels import fit_levels
 from .preset import new_keys, read_start, set_levels, set_shape, with_key
@@ -158,7 +158,7 @@ def fit_by_passes(shaped, start, fit, source, options):
             "gain and noise are those of the start, with which more figures of a rendered pass agree", SCENE_DECIDES]}[way]
         text = text_of(start, new_keys(start, one), source)
         after = judge(shaped, text, *more)
-        tried.append((after.white <= MOST_WHITE, after.agree[0], -len(tried), after, text, one))
+        tried.append((after.white <= MAX_WHITE, after.agree[0], -len(tried), after, text, one))
         if way == "noise" and not is_worse(after, before, 0):
             break
     *_, after, text, fit = max(tried, key=lambda of: of[:3])

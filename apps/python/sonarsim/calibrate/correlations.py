@@ -11,10 +11,10 @@ from scipy import interpolate, linalg, optimize
 from .statistics import LAGS, Bounded, bootstrap, receiver_statistics
 
 TAPERS_DB = np.arange(-13.3, -41.0, -0.5)
-LEAST_UNITS, MOST_PAIRS = 24, 16
+MIN_UNITS, MAX_PAIRS = 24, 16
 CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of 100 cases
 # Of correlations: the error of the model between the columns of its grid, and the least that shows a pulse.
-MODEL_ERROR, LEAST_CORRELATION = 0.002, 0.04
+MODEL_ERROR, MIN_CORRELATION = 0.002, 0.04
 
 
 def pattern(pedestal, t):
@@ -100,7 +100,7 @@ def fit_pulse(patches, chosen, pulse):
     """The half-power width in bins; None if neighbouring bins are not correlated: the pulse is shorter than a bin."""
     correlations = patches.correlations(chosen)
     measured = correlations(np.ones((1, patches.places)))[0, 0]
-    if measured[0] < LEAST_CORRELATION:
+    if measured[0] < MIN_CORRELATION:
         return None
     bins, rows = pulse.table
     rows = rows[:, np.isfinite(measured)]
@@ -123,7 +123,7 @@ def beam_correlation(pedestal, t):
 
 def differences(sines):
     """The differences of sines of beams 1 to LAGS apart, some evenly over the fan."""
-    return [np.abs(sines[lag:] - sines[:-lag])[::max(len(sines) // MOST_PAIRS, 1)] for lag in range(1, LAGS + 1)]
+    return [np.abs(sines[lag:] - sines[:-lag])[::max(len(sines) // MAX_PAIRS, 1)] for lag in range(1, LAGS + 1)]
 
 
 def predicted_correlations(beam, sines, statistics):
@@ -138,7 +138,7 @@ def fit_array(measured, covariance, units, sines, statistics):
     """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths. An
     interval covers all arrays whose chi^2 is within 3.84 of the least (profile likelihood; Wilks 1938). None for
     fewer than 24 units."""
-    if units < LEAST_UNITS:
+    if units < MIN_UNITS:
         return None
     # The inverse of a covariance from n units is (n - 1) / (n - p - 2) too large (Hartlap 2007).
     inverse = np.linalg.inv(covariance + MODEL_ERROR**2 * np.eye(LAGS)) * (units - LAGS - 2.0) / (units - 1.0)

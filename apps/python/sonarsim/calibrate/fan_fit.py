@@ -22,7 +22,7 @@ GREY_ERROR, RING_ERROR, RING_ERROR_USUAL, GRAIN_ERROR, SKEWNESS_ERROR = 6.0, 6.0
 NUMBERS = {"gamma": (0.25, 0.1, 2.0), "dynamic_range_db": (20.0, 10.0, 200.0), "full_scale_db": (20.0, -300.0, 300.0),
            "noise_db": (8.0, -300.0, 300.0), "tvg_log": (5.0, 0.0, 60.0), "smoothing_px": (1.0, 0.0, 3.0)}
 LAWS, SMOOTHING_PX = {"gamma": "gamma", "log": "dynamic_range_db"}, 0.4
-BLOCK, LEAST_BLOCKS, LEAST_GREY = 12, 30, 8.0
+BLOCK, MIN_BLOCKS, MIN_GREY = 12, 30, 8.0
 
 
 class Display(Records):
@@ -62,8 +62,8 @@ def features(greys):
     blocks = greys[:, :rows * BLOCK, :columns * BLOCK].reshape(pings, rows, BLOCK, columns, BLOCK).swapaxes(2, 3)
     blocks = blocks.reshape(-1, BLOCK, BLOCK)
     mean = blocks.mean(axis=(1, 2))
-    usable = (mean > LEAST_GREY) & ((blocks >= FULL).mean(axis=(1, 2)) < 0.02) & ((blocks <= 0.0).mean(axis=(1, 2)) < 0.05)
-    if usable.sum() < LEAST_BLOCKS:
+    usable = (mean > MIN_GREY) & ((blocks >= FULL).mean(axis=(1, 2)) < 0.02) & ((blocks <= 0.0).mean(axis=(1, 2)) < 0.05)
+    if usable.sum() < MIN_BLOCKS:
         return rings, np.full(3, np.nan), np.nan
     blocks, mean = blocks[usable], mean[usable]
     # Half the mean square difference of values half a block apart along range, without that of a trend.
@@ -112,7 +112,7 @@ def beam_width(start, sensor, measured, simulated):
         patches = Patches(pixels.reshape(len(pixels), -1)[:, index[len(index) // 2:]], FULL,
                           lambda ping: np.log(np.maximum(ping, 0.5)))
         even = patches.even()
-        if len(even) < LEAST_BLOCKS:
+        if len(even) < MIN_BLOCKS:
             return None
         found.append(patches.correlations(even))
 
@@ -122,9 +122,9 @@ def beam_width(start, sensor, measured, simulated):
         return predicted_correlations({**beam, "width_deg": width}, sines, LogStatistics())
     widths = beam["width_deg"] * np.geomspace(0.4, 2.5, 93)
     table = np.array([predicted(width) for width in widths]) - predicted(beam["width_deg"])
-    of_start = found[1](np.ones((1, patches.places)))[0, 1]
+    at_start = found[1](np.ones((1, patches.places)))[0, 1]
     return bootstrap(patches.places, lambda weights: widths[[np.nansum((table - row) ** 2, axis=1).argmin() for row in
-                                                             found[0](weights)[:, 1] - of_start]])[0]
+                                                             found[0](weights)[:, 1] - at_start]])[0]
 
 
 def grey_figures(display, fans, law, numbers, where=""):
@@ -137,11 +137,11 @@ def grey_figures(display, fans, law, numbers, where=""):
     def estimate(weights, of):
         mean, square, *others = (weights @ of / weights.sum(axis=1)[:, None]).T
         return np.stack([mean, np.sqrt(np.maximum(square - mean**2, 0.0)), *others], axis=1)
-    of_fans, of_scene = columns(fans), columns(display.greys(law, numbers))
-    measured = bootstrap(len(of_fans), lambda weights: estimate(weights, of_fans))
+    fan_columns, scene_columns = columns(fans), columns(display.greys(law, numbers))
+    measured = bootstrap(len(fan_columns), lambda weights: estimate(weights, fan_columns))
     names = "mean", "standard deviation", "mean, near", "mean, middle", "mean, far", "50 %", "90 %", "99 %"
     return [Figure(f"grey: {name}{where}", 0.1, float(value), of) for name, value, of in zip(
-        names, estimate(np.ones((1, len(of_scene))), of_scene)[0], measured)]
+        names, estimate(np.ones((1, len(scene_columns))), scene_columns)[0], measured)]
 
 
 def fit_fans(windows, start, full_scale_db, ring_error):
@@ -168,10 +168,10 @@ def fit_fans(windows, start, full_scale_db, ring_error):
         fit.set("beam.width_deg", width)
     if numbers[-1] > 0.6:
         fit.notes.append(f"the fans are smoothed, as by a Gaussian of {numbers[-1]:.1f} pixels, which no key does")
-    of_start = "log" if receiver["companding"] == "log" else "gamma"
+    at_start = "log" if receiver["companding"] == "log" else "gamma"
     rows = []
     for k, own in enumerate(greys):
-        chosen = (displays[1][k], own[1], of_start, begin[of_start]), *((of[k], part, law, numbers)
+        chosen = (displays[1][k], own[1], at_start, begin[at_start]), *((of[k], part, law, numbers)
                                                                         for of, part in zip(displays, own))
         rows += zip(*(grey_figures(*one, f", window {k + 1}" * (len(greys) > 1)) for one in chosen))
     return fit, rows

@@ -5,9 +5,9 @@ from PIL import Image
 from ..data import Sensor
 from .statistics import CalibrationError
 
-MOST_FANS, MOST_PIXELS = 64, 1 << 24
+MAX_FANS, MAX_PIXELS = 64, 1 << 24
 # The heights of a picture may differ by this share; outside, greys deviate by less than this share of those inside.
-HEIGHT_TOLERANCE, MOST_OUTSIDE = 0.015, 0.3
+HEIGHT_TOLERANCE, MAX_OUTSIDE = 0.015, 0.3
 
 
 class Fans(Sensor):
@@ -29,7 +29,7 @@ class Fans(Sensor):
         self.range_edges_m = np.linspace(low, high, int((high - low) / pixel_m) + 1)
         self.azimuth_edges_rad = np.linspace(-half, half, max(int(half * high / pixel_m), 1) + 1)
         inside = self.to_fan(np.ones((len(self.range_edges_m) - 1, len(self.azimuth_edges_rad) - 1), bool), width)
-        if self.pixels[:, ~inside].std() > MOST_OUTSIDE * self.pixels[:, inside].std():
+        if self.pixels[:, ~inside].std() > MAX_OUTSIDE * self.pixels[:, inside].std():
             raise CalibrationError(f"{name}: the fans are not of one grey outside of {azimuth_deg:g} degrees and {low:g} to "
                                    f"{high:g} m: give their opening and ranges")
         self.index = self.from_fan(np.arange(height * width).reshape(height, width))
@@ -50,7 +50,7 @@ def read_fans(folder, azimuth_deg, range_m):
                                "two or more, better twenty")
     if not (0.0 < azimuth_deg <= 360.0 and 0.0 <= range_m[0] < range_m[1]):
         raise CalibrationError("--azimuth-deg and --range-m: give the opening, up to 360, and the least and largest range")
-    paths = [paths[k] for k in np.unique(np.linspace(0, len(paths) - 1, MOST_FANS).astype(int))]
+    paths = [paths[k] for k in np.unique(np.linspace(0, len(paths) - 1, MAX_FANS).astype(int))]
     pixels = [read_grey(path) for path in paths]
     for path, one in zip(paths, pixels):
         if one.shape != pixels[0].shape:
@@ -61,8 +61,8 @@ def read_fans(folder, azimuth_deg, range_m):
 def read_grey(path):
     try:
         with Image.open(path, formats=["PNG"]) as picture:
-            if picture.width * picture.height > MOST_PIXELS or picture.mode.startswith("I"):
-                raise CalibrationError(f"{path}: is not a picture of 8 bits and at most {MOST_PIXELS} pixels")
+            if picture.width * picture.height > MAX_PIXELS or picture.mode.startswith("I"):
+                raise CalibrationError(f"{path}: is not a picture of 8 bits and at most {MAX_PIXELS} pixels")
             colours = np.asarray(picture.convert("RGB"))
     except (OSError, SyntaxError) as fault:
         raise CalibrationError(f"{path}: is not a whole PNG file: {fault}") from fault

@@ -10,7 +10,7 @@ from .law import FewPatches, Law, fit_law, full_value_of
 from .noise import Noise, fit_noise, noise_blocks
 from .statistics import LAGS, WIDEST, Bounded, receiver_statistics
 
-LEAST_PATCHES = 24
+MIN_PATCHES = 24
 DECIBELS = "receiver.full_scale_db", "receiver.noise_db", "beam.side_lobe_db"   # they have no share of themselves
 
 
@@ -110,22 +110,22 @@ def fit_laws(recording, fit, absorption):
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
     patches, noise, _ = classified(recording, fit.law, fit.noise)
-    of_echoes = len(noise) < LEAST_PATCHES
-    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
+    by_echoes = len(noise) < MIN_PATCHES
+    places = None if by_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
     fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
     find()
-    if of_echoes:
+    if by_echoes:
         fit.notes.append("companding is fitted to echoes: a texture of the bottom counts as speckle, and makes gamma too "
                          "large or dynamic_range_db too small")
 
 
 def fit_pulse_and_beams(recording, fit):
     patches, noise, echoes = classified(recording, fit.law, fit.noise)
-    of_echoes = len(noise) < LEAST_PATCHES
-    chosen = echoes if of_echoes else noise
-    if len(chosen) < LEAST_PATCHES:
+    by_echoes = len(noise) < MIN_PATCHES
+    chosen = echoes if by_echoes else noise
+    if len(chosen) < MIN_PATCHES:
         return fit.notes.append("pulse and beams: too few patches of noise or even echoes; those of the start are kept")
-    pulse = pulse_of(fit.instrument, "echo" if of_echoes else "noise")
+    pulse = pulse_of(fit.instrument, "echo" if by_echoes else "noise")
     width = fit_pulse(patches, chosen, pulse)
     if width is None:
         fit.notes.append("pulse.resolution_m: the pulse is shorter than a bin; that of the start is kept")
@@ -135,7 +135,7 @@ def fit_pulse_and_beams(recording, fit):
         fit.notes.append("pulse.resolution_m: no rows show noise alone, so the interval holds pulses of both")
     beams = fit.instrument["beam"] if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS else None
     if beams:
-        found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad),
+        found = fit_array(*patches.beam_covariance(chosen, not by_echoes), np.sin(recording.bearing_rad),
                           fit.law.statistics)
         for key, number in zip(("beam.width_deg", "beam.side_lobe_db"), found or ()):
             fit.set(key, number)

@@ -9,7 +9,7 @@ from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
 from .statistics import DB_OF_E, LAGS, Bounded, bootstrap, receiver_statistics
 
-LEAST_PATCHES, LEAST_ECHO_DB, DRAWS = 12, 6.0, 40
+MIN_PATCHES, MIN_ECHO_DB, DRAWS = 12, 6.0, 40
 
 
 class Figure(typing.NamedTuple):
@@ -39,7 +39,7 @@ def classified(recording, law, noise):
         # in 2.4 % of the patches.
         chosen = chosen[patches.unevenness[chosen] <= 4.0 * np.median(patches.unevenness[chosen])]
     if noise:
-        echoes = echoes[DB_OF_E * (patches.mean[echoes] - law.statistics.mean) > LEAST_ECHO_DB]
+        echoes = echoes[DB_OF_E * (patches.mean[echoes] - law.statistics.mean) > MIN_ECHO_DB]
     return patches, chosen, echoes
 
 
@@ -51,13 +51,13 @@ def figures_of(recording, instrument, level_db, start, fit):
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
                   fit.noise and fit.noise.used)
-    patches, of_noise, echoes = classified(recording, law, noise)
+    patches, noise_part, echoes = classified(recording, law, noise)
     to_shape, out = 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(
         0.5 * (law.log_power(ping) - noise.at(recording.ranges_m)[:, None] / DB_OF_E)))
     columns = np.ones(len(patches.place)), np.sqrt(of.variance) / of.mean, patches.variance
-    for where, kind, chosen in (("noise", "noise", of_noise), ("echoes", "echo", echoes)):
-        if len(chosen) < LEAST_PATCHES:
+    for where, kind, chosen in (("noise", "noise", noise_part), ("echoes", "echo", echoes)):
+        if len(chosen) < MIN_PATCHES:
             continue
         pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
 
@@ -71,9 +71,9 @@ def figures_of(recording, instrument, level_db, start, fit):
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:
             predicted.append(predicted_correlations(instrument["beam"], np.sin(recording.bearing_rad), statistics))
-        for axis, of_speckle in enumerate(predicted):
+        for axis, speckle_part in enumerate(predicted):
             out += [Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
-                           float(of_speckle[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
+                           float(speckle_part[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":
             out += noise_levels(recording, law, noise)
     return [figure for figure in out if np.isfinite(figure.measured.value)]

@@ -10,7 +10,7 @@ from .levels import scenes_of
 from .scene import pass_of, with_shape
 from .statistics import CalibrationError
 
-MOST_WHITE = 0.05
+MAX_WHITE = 0.05
 
 
 def rows_beside(judged, simulated):
@@ -50,14 +50,14 @@ def judge(windows, text, mission=None, settings=()):
 
 def is_worse(fit, start, part):
     """True for a pass that is white, or in which fewer figures agree with the fitted (0) or judged (1) pings."""
-    return fit.white > MOST_WHITE or fit.agree[part] < start.agree[part]
+    return fit.white > MAX_WHITE or fit.agree[part] < start.agree[part]
 
 
 def check_judged(fit, start, lacks):
     """CalibrationError for a fit that is not to be written. `lacks`: what the recording lacks."""
     figures = sum(len(window) for window in fit.rows)
     lacks = "the recording lacks " + (", ".join(lacks) or "a scene like the rendered one: name one by --mission")
-    if fit.white > MOST_WHITE:
+    if fit.white > MAX_WHITE:
         raise CalibrationError(f"{fit.white:.0%} of a pass that is rendered with the fit is white, so it is not written: {lacks}")
     if is_worse(fit, start, 1) or fit.agree[1] == start.agree[1] < 0.5 * figures:
         raise CalibrationError(f"{fit.agree[1]} of {figures} figures of a pass that is rendered with the fit agree with the "

@@ -7,7 +7,7 @@ from ..compare.images import RING_SHARE
 from .scene import BOTTOMS, Echoes, own_mission, usual_mission, view_of
 from .statistics import WIDEST, Bounded
 
-FULL, MOST_IMAGES, MOST_COLUMNS, RINGS = 255.0, 3, 32, 16
+FULL, MAX_IMAGES, MAX_COLUMNS, RINGS = 255.0, 3, 32, 16
 QUANTILES = 0.1, 0.5, 0.9, 0.98
 # In dB, of all ranges, and of rings where the scene is seen as the pings see theirs, and where not. Chosen.
 LEVEL_ERROR, RING_ERROR, RING_ERROR_USUAL = 0.5, 1.5, 20.0
@@ -44,7 +44,7 @@ def levels_of(greys, law, scale):
 def some_of(images):
     """A few images and columns of many."""
     number, column = (np.unique(np.linspace(0, count - 1, most).astype(int)) for count, most in (
-        (len(images), MOST_IMAGES), (images.shape[2], MOST_COLUMNS)))
+        (len(images), MAX_IMAGES), (images.shape[2], MAX_COLUMNS)))
     return images[number][:, :, column]
 
 

@@ -8,8 +8,8 @@ from .statistics import DB_OF_E, Bounded, bootstrap
 
 ROWS, GROUPS = 8, 8         # bins of a block, groups of beams
 NEAR_DB = 0.8               # a block is on the law if it is within this of it
-LEAST_BLOCKS, LEAST_SHARE = 6, 0.12
-LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block and the law leave
+MIN_BLOCKS, MIN_SHARE = 6, 0.12
+MIN_LEVEL_DB, MIN_TVG = 0.1, 0.2    # errors that the trend within a block and the law leave
 
 
 def noise_blocks(recording, law):
@@ -94,14 +94,14 @@ def fit_noise(blocks, absorption, from_m=0.0):
         tried.append((score[at], -factor, 0.5 * (off[at] + off[end[at] - 1])))
     line = max(tried)[:0:-1] * np.array([1.0, -1.0])
     used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= NEAR_DB)
-    if used.sum() < max(LEAST_BLOCKS, LEAST_SHARE * len(x)):
+    if used.sum() < max(MIN_BLOCKS, MIN_SHARE * len(x)):
         return None
     for _ in range(5):
         line = best_line(x[used], y[used], np.ones((1, used.sum())))[0]
         used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= 1.2 * NEAR_DB)
-        if used.sum() < LEAST_BLOCKS:
+        if used.sum() < MIN_BLOCKS:
             return None
-    found = bootstrap(used.sum(), lambda w: best_line(x[used], y[used], w), [LEAST_LEVEL_DB, LEAST_TVG])
+    found = bootstrap(used.sum(), lambda w: best_line(x[used], y[used], w), [MIN_LEVEL_DB, MIN_TVG])
     return Noise(*found, from_m, absorption, blocks[used])
 
 

@@ -4,8 +4,8 @@ import numpy as np
 from ..compare.images import Grid
 from .statistics import LAGS
 
-MOST_AT_AN_END = 0.003      # share of a patch's values at an end of the scale, which bias its moments
-LEAST_MEAN_VALUE = 6.0      # smaller values are too coarse for the logarithm
+MAX_AT_AN_END = 0.003      # share of a patch's values at an end of the scale, which bias its moments
+MIN_MEAN_VALUE = 6.0      # smaller values are too coarse for the logarithm
 
 
 class Patches:
@@ -44,11 +44,11 @@ class Patches:
                 "along_beams": np.stack([structure(x, 0, lag) for lag in range(1, LAGS + 1)], axis=1),
                 "between": np.var(quarters, axis=0) * len(quarters) / max(len(quarters) - 1, 1)}
 
-    def even(self, places=None, most_zeros=MOST_AT_AN_END):
+    def even(self, places=None, max_zeros=MAX_AT_AN_END):
         """The numbers of the more even half of the patches without clipped and missing values, at some places."""
-        good = (self.zeros <= most_zeros) & (self.at_full <= MOST_AT_AN_END) & (self.variance > 0.0)
+        good = (self.zeros <= max_zeros) & (self.at_full <= MAX_AT_AN_END) & (self.variance > 0.0)
         if self.full_value > 15.0:
-            good &= self.mean_value >= LEAST_MEAN_VALUE
+            good &= self.mean_value >= MIN_MEAN_VALUE
         if places is not None:
             good &= places[self.place]
         chosen = np.flatnonzero(good)
@@ -64,9 +64,9 @@ class Patches:
         found = np.nan_to_num(self.correlations(chosen)(np.ones((1, self.places)))[0])
         within, whole = (self.variance - self.between)[chosen].sum() / self.variance[chosen].sum(), 1.0
         for _ in range(4):      # correlations are 1 - structure / whole variance
-            of_logs = 1.0 - np.pad(1.0 - found, [(0, 0), (1, 0)]) / whole
-            of_ranges, of_beams = np.interp(of_logs, statistics.correlation(known), known)
-            share = along_ranges @ statistics.correlation(np.outer(of_ranges, of_beams)) @ along_beams
+            in_logs = 1.0 - np.pad(1.0 - found, [(0, 0), (1, 0)]) / whole
+            range_values, beam_values = np.interp(in_logs, statistics.correlation(known), known)
+            share = along_ranges @ statistics.correlation(np.outer(range_values, beam_values)) @ along_beams
             whole = within / (1.0 - min(share, 0.5))
         return whole * self.variance
 

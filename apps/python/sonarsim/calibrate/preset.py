@@ -13,7 +13,7 @@ import yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
-MOST_ABSORBED_DB = 100.0    # more than any sonar has to spare
+MAX_ABSORBED_DB = 100.0    # more than any sonar has to spare
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
@@ -104,7 +104,7 @@ def set_shape(start, recording, settings):
         start.shape["instrument.frequency_hz"] = f"{recording.frequency_hz:g}"
     set_levels(start, [*settings, f"water.sound_speed_m_s={recording.sound_speed_m_s}"])
     absorbed_db = 2.0 * start.absorption_db_per_m * start.shape["range_max_m"]
-    if absorbed_db > MOST_ABSORBED_DB:
+    if absorbed_db > MAX_ABSORBED_DB:
         raise CalibrationError(f"water absorbs {absorbed_db:.0f} dB over the range of the pings at the frequency of "
                                f"{start.file}: give that of the sonar, frequency_hz in recording.yaml")
 

@@ -14,7 +14,7 @@ from ..recording.description import read_yaml
 from .preset import run_program, with_key
 from .statistics import CalibrationError
 
-MOST_VARIANTS, ABOUT_PINGS = 10, {"imaging": 10, "sidescan": 64, "scanning": 64, "echosounder": 64}
+MAX_VARIANTS, ABOUT_PINGS = 10, {"imaging": 10, "sidescan": 64, "scanning": 64, "echosounder": 64}
 NO_NOISE_DB = -300
 # Bottoms differ by 20 dB; the first is the one that a value comes from, the others widen its interval.
 BOTTOMS = ("sand", "silt", "gravel")
@@ -75,7 +75,7 @@ def rendered(start, text, mission, name, paths_from, settings, read):
                  or str(rule["key"]).startswith(f"sensors.{name}.mount.")]
         mission = {**mission, "sensors": {name: {**own, "preset": str(folder / "preset.yaml")}}, "vary": rules,
                    "output": {"fan": False, "polar": True, "folder": str(folder / "out")},
-                   "variants": min(mission.get("variants") or 0, MOST_VARIANTS)}
+                   "variants": min(mission.get("variants") or 0, MAX_VARIANTS)}
         words = [f"--paths-from={paths_from or folder}", *(f"--set={one}" for one in settings)]
 
         def program(command, *more):

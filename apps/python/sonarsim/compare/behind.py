@@ -2,13 +2,13 @@
 import numpy as np
 from scipy import ndimage
 
-from .figure import LEAST_POWER, Figure, decibels
+from .figure import MIN_POWER, Figure, decibels
 from .images import RING_SHARE
 
 # Metres behind the first return of a side-scan, over the level 4 to 8 m behind it; behind the peak of others, over it.
 DISTANCES_M = {"sidescan": (0.1, 0.5, 1.0, 2.0, 4.0), "echosounder": (1.0, 2.0, 3.0, 5.0, 7.0, 10.0)}
 OF_WALLS_M, REFERENCE_M = (0.1, 0.2, 0.5, 1.0, 2.0), (4.0, 8.0)
-NEIGHBOURS, STANDS_OUT_DB, DEEPEST_DB, MOST_PLACES = 9, 15.0, 40.0, 64
+NEIGHBOURS, STANDS_OUT_DB, DEEPEST_DB, MAX_PLACES = 9, 15.0, 40.0, 64
 
 
 def first_returns(images):
@@ -42,14 +42,14 @@ def behind_figures(images):
     rows, width = np.arange(len(edge)), images.shape[1]
     # Neighbouring columns have a place in common; pings have one of their own.
     unit, count_of_units = (number * width + column, len(images.powers) * width) if images.columns_are_pings else (column, width)
-    place, ping = unit * min(MOST_PLACES, count_of_units) // count_of_units, 0 if images.columns_are_pings else number
+    place, ping = unit * min(MAX_PLACES, count_of_units) // count_of_units, 0 if images.columns_are_pings else number
 
     def level(near_m, far_m):
         begin, end = (edge + np.round(metres / step).astype(int) for metres in (near_m, far_m))
         end, inside = np.maximum(end, begin + 1), end < count
         begin, end = np.minimum(begin, count - 1), np.minimum(end, count)
         mean = (sums[rows, end] - sums[rows, begin]) / (end - begin)
-        return np.where(inside, decibels(np.maximum(mean, LEAST_POWER)), np.nan)
+        return np.where(inside, decibels(np.maximum(mean, MIN_POWER)), np.nan)
     reference = level(*REFERENCE_M) if is_sidescan else decibels(powers[rows, edge])
     what = "the first return" if is_sidescan else "the peak" if images.kind == "echosounder" else "the strongest echo"
     return [Figure.of(f"{metres:g} m behind {what}, dB", "quantile", "decibel", place, ping,

@@ -12,7 +12,7 @@ from .figure import joined, value_of, without_gain
 
 DRAWS, CELL_DRAWS, EXCHANGES = 300, 100, 499
 FEWEST_PLACES = 8
-MOST_DEGREES = 300.0
+MAX_DEGREES = 300.0
 SIGNIFICANCE = 0.05
 TOLERANCES = {"decibel": 1.0, "texture": 0.3, "correlation": 0.05, "skewness": 0.1, "hundredth": 0.01}
 
@@ -39,7 +39,7 @@ class ComparedFigure:
     @property
     def halves(self):
         """Half of the 95 % intervals of real, simulated and the difference."""
-        factor = stats.t.ppf(0.975, min(self.degrees, MOST_DEGREES)) if self.degrees > 0.0 else 0.0
+        factor = stats.t.ppf(0.975, min(self.degrees, MAX_DEGREES)) if self.degrees > 0.0 else 0.0
         return [float(factor * error) for error in (self.real_error, self.simulated_error, self.error)]
 
     @property
@@ -71,11 +71,11 @@ def compared(real, simulated, same_places, same_pings, seed):
                          tolerance_of(real.tolerance, value_of(real)))
     places, pings = (min(len(np.unique(units)) for units in both) for both in (
         (real.places, simulated.places), (real.pings, simulated.pings)))
-    of_places, of_pings = corrected(variances(real, simulated, "places", same_places, seed), places), np.zeros(3)
+    by_places, by_pings = corrected(variances(real, simulated, "places", same_places, seed), places), np.zeros(3)
     if pings > 1:
         cells = variances(real, simulated, "cells", same_places and same_pings, seed)
-        of_pings = np.maximum(corrected(variances(real, simulated, "pings", same_pings, seed), pings) - cells, 0.0)
-    out.real_error, out.simulated_error, out.error = map(float, np.sqrt(of_places + of_pings))
+        by_pings = np.maximum(corrected(variances(real, simulated, "pings", same_pings, seed), pings) - cells, 0.0)
+    out.real_error, out.simulated_error, out.error = map(float, np.sqrt(by_places + by_pings))
     if places < FEWEST_PLACES:
         return out
     least = 1e-9 * (abs(out.real) + abs(out.simulated)) + 1e-30
@@ -83,9 +83,9 @@ def compared(real, simulated, same_places, same_pings, seed):
         out.degrees, out.p = places - 1.0, float(abs(out.difference) <= least)
         return out
     # Satterthwaite's degrees of freedom.
-    parts = of_places[2] ** 2 / degrees_of(real, simulated, same_places, places) + of_pings[2] ** 2 / max(pings - 1.0, 1.0)
-    out.degrees = float((of_places + of_pings)[2] ** 2 / parts)
-    out.p = float(2.0 * stats.t.sf(abs(out.standardised), min(out.degrees, MOST_DEGREES)))
+    parts = by_places[2] ** 2 / degrees_of(real, simulated, same_places, places) + by_pings[2] ** 2 / max(pings - 1.0, 1.0)
+    out.degrees = float((by_places + by_pings)[2] ** 2 / parts)
+    out.p = float(2.0 * stats.t.sf(abs(out.standardised), min(out.degrees, MAX_DEGREES)))
     return out
 
 
@@ -100,12 +100,12 @@ def variances(real, simulated, kind, is_paired, seed):
     units = np.concatenate([{"places": one.places, "pings": one.pings, "cells": one.places * pings + one.pings}[kind]
                             for one in (real, simulated)])
     known, numbers = np.unique(units, return_inverse=True)
-    of_real, of_simulated = np.split(numbers, [real.places.size])
+    real_part, simulated_part = np.split(numbers, [real.places.size])
     random = np.random.default_rng([seed, ("places", "pings", "cells").index(kind)])
     shape = (CELL_DRAWS if kind == "cells" else DRAWS, len(known))
     draws = random.standard_exponential(shape)
-    a = joined((real, of_real, draws))
-    b = joined((simulated, of_simulated, draws if is_paired else random.standard_exponential(shape)))
+    a = joined((real, real_part, draws))
+    b = joined((simulated, simulated_part, draws if is_paired else random.standard_exponential(shape)))
     return np.array([np.var(x[np.isfinite(x)], ddof=1) if np.isfinite(x).sum() > 1 else 0.0 for x in (a, b, b - a)])
 
 

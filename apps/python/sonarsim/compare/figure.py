@@ -4,12 +4,12 @@ import dataclasses
 import numpy as np
 from scipy import sparse
 
-LEAST_POWER = 1e-16         # -160 dB
-MOST_WEIGHTS = 1 << 22      # held at a time
+MIN_POWER = 1e-16         # -160 dB
+MAX_WEIGHTS = 1 << 22      # held at a time
 
 
 def decibels(powers):
-    return 10.0 * np.log10(np.maximum(powers, LEAST_POWER))
+    return 10.0 * np.log10(np.maximum(powers, MIN_POWER))
 
 
 @dataclasses.dataclass
@@ -81,7 +81,7 @@ def joined(*parts):
     ends = np.cumsum([figure.values.size for figure, *_ in parts])
     cells = [sparse.csr_matrix((figure.weights, (own, units)), (len(values), drawn.shape[1]))
              for (figure, units, drawn), own in zip(parts, np.split(at, ends))]
-    step = max(1, MOST_WEIGHTS // len(values))
+    step = max(1, MAX_WEIGHTS // len(values))
     high, low = (0.84, 0.16) if first.reduce == "spread" else (first.share, first.less)
 
     def reduced(weights):

@@ -3,10 +3,10 @@ import dataclasses
 
 import numpy as np
 
-from ..recording.recording import MOST_POWER
+from ..recording.recording import MAX_POWER
 from .figure import decibels
 
-MOST_STRIP_PINGS = 64
+MAX_STRIP_PINGS = 64
 CLIPPED_SHARE = 0.995       # values above this share of the largest count as clipped
 # Zones; on three pings of a real sonar over a rough bottom these shares find the ranges that a person had marked.
 BOTTOM_DB, STANDS_OUT_DB = 10.0, 15.0
@@ -25,7 +25,7 @@ class Images:
     kind: str                       # of the recording
     is_relative: bool               # levels of the recording have no common scale with those of the other
     full_power: float               # powers from here on are clipped; inf: none are
-    least_power: float              # powers up to here are at the lower end of the scale
+    min_power: float              # powers up to here are at the lower end of the scale
     ping_levels_db: np.ndarray      # [side, ping], one side for all kinds but a side-scan; also of pings in no image
     beam_levels_db: np.ndarray      # [ping, beam]
 
@@ -52,7 +52,7 @@ def images_of(recording, is_relative):
     levels = blocks.mean(axis=1)
     if not is_imaging:
         pings, ranges, beams = powers.shape
-        width = min(MOST_STRIP_PINGS, pings)
+        width = min(MAX_STRIP_PINGS, pings)
         strips = powers[:pings // width * width].reshape(-1, width, ranges, beams)
         powers = strips.transpose(3, 0, 2, 1).reshape(-1, ranges, width)
     mean = powers.mean(dtype=np.float64) if is_relative else 1.0
@@ -68,7 +68,7 @@ def block_levels_db(powers):
     powers = powers[:, len(powers[0]) // RING_SHARE:]
     count = max(powers.shape[1] // RANGES_OF_LEVEL, 1)
     means = powers[:, :count * RANGES_OF_LEVEL].reshape(len(powers), count, -1, powers.shape[2]).mean(axis=2, dtype=float)
-    return decibels(np.maximum(means, powers.min(where=powers > 0.0, initial=MOST_POWER)))
+    return decibels(np.maximum(means, powers.min(where=powers > 0.0, initial=MAX_POWER)))
 
 
 def have_one_grid(a, b):

@@ -13,8 +13,8 @@ from .shadows import shadow_figures
 from .texture import block_figures, off_figures
 
 RANGE_BANDS, BEARING_BANDS = 8, 4
-MOST_TREND = {"bottom": 0.5, "image": 0.5, "water": 0.35, "tail": 0.35}
-MOST_CLIPPED = 0.03
+MAX_TREND = {"bottom": 0.5, "image": 0.5, "water": 0.35, "tail": 0.35}
+MAX_CLIPPED = 0.03
 LAGS = (1, 2, 4)
 LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
 PERCENTILES = (5, 25, 75, 95, 99)
@@ -55,8 +55,8 @@ def zone_figures(images, grid, name, zone):
     for own, image in zip(table, images.powers if places.size else ()):
         power = grid.cut(image)[places]
         amplitude, trend, is_even = speckle.detrended(power, basis)
-        clipped = ((power >= images.full_power) | (power <= images.least_power)).mean(axis=(1, 2))
-        counts = is_even & (trend <= MOST_TREND[name]) & (clipped <= MOST_CLIPPED)
+        clipped = ((power >= images.full_power) | (power <= images.min_power)).mean(axis=(1, 2))
+        counts = is_even & (trend <= MAX_TREND[name]) & (clipped <= MAX_CLIPPED)
         if counts.any():
             with np.errstate(invalid="ignore", divide="ignore"):
                 own[:-1, counts] = [measure(amplitude[counts]) for *_, measure in rules[:-1]]
@@ -118,7 +118,7 @@ def share_figures(images, grid):
     is_known = np.isfinite(images.full_power)
     return [Figure.of(name, "mean", "share", np.arange(grid.places), np.arange(len(images.powers))[:, None],
                       [is_at(grid.cut(image)).mean(axis=(1, 2)) for image in images.powers])
-            for name, is_at in (("share of zeros", lambda power: ~(power > images.least_power)),
+            for name, is_at in (("share of zeros", lambda power: ~(power > images.min_power)),
                                 ("share of white", lambda power: power >= images.full_power))[:1 + is_known]]
 
 

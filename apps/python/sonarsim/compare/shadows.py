@@ -2,10 +2,10 @@
 import numpy as np
 from scipy import ndimage
 
-from .figure import LEAST_POWER, Figure
+from .figure import MIN_POWER, Figure
 
 WINDOW = 5
-LEAST_LENGTH = 5
+MIN_LENGTH = 5
 DARK = 0.25     # 6 dB below; speckle alone makes such a run in fewer than one of 10,000 bins
 
 
@@ -40,7 +40,7 @@ def shadows_of(image, begin):
     for column, steps in enumerate(np.diff(is_dark, axis=0).T):
         found += [(column, begin + first, begin + end, *measured_shadow(across[:, column], median, first, end))
                   for first, end in zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1))
-                  if end - first >= LEAST_LENGTH]
+                  if end - first >= MIN_LENGTH]
     return found
 
 
@@ -48,7 +48,7 @@ def measured_shadow(line, median, first, end):
     """The level of a shadow's middle over the median, and the ranges from a quarter to three quarters of its far rise."""
     trim = min(WINDOW // 2, (end - first - 1) // 2)
     inside, around = (values[first + trim:end - trim].mean() for values in (line, median))
-    depth = 10.0 * np.log10(max(inside, LEAST_POWER) / max(around, LEAST_POWER))
+    depth = 10.0 * np.log10(max(inside, MIN_POWER) / max(around, MIN_POWER))
     beyond = line[(first + end) // 2:]
     quarter, most = (reached_at(beyond, inside + share * (around - inside)) for share in (0.25, 0.75))
     return depth, most - quarter

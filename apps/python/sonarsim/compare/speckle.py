@@ -4,7 +4,7 @@ Amplitudes of developed speckle are Rayleigh distributed: coefficient of variati
 0, skewness of logarithms -1.1395."""
 import numpy as np
 
-LEAST_TREND = 0.15      # a trend that falls below this share of the mean is that of an edge
+MIN_TREND = 0.15      # a trend that falls below this share of the mean is that of an edge
 TINY = np.finfo(np.float32).tiny
 
 
@@ -21,7 +21,7 @@ def detrended(patches, basis):
     mean square 1; the standard deviation of the surface over the mean; False where the surface falls to an edge."""
     power = patches.reshape(len(patches), -1).astype(np.float64)
     mean, surface = power.mean(axis=1), (power @ basis) @ basis.T
-    is_even = (mean > 0.0) & (surface.min(axis=1) > LEAST_TREND * mean)
+    is_even = (mean > 0.0) & (surface.min(axis=1) > MIN_TREND * mean)
     with np.errstate(invalid="ignore", divide="ignore"):
         flat = power / surface
         amplitude = np.sqrt(flat / flat.mean(axis=1, keepdims=True))

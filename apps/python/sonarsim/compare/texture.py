@@ -2,18 +2,18 @@
 import numpy as np
 from scipy import ndimage
 
-from .behind import MOST_PLACES, first_returns
+from .behind import MAX_PLACES, first_returns
 from .figure import Figure, decibels
 from .images import RING_SHARE
 
-LEAST_BLOCK, OCTAVES, LEAST_BLOCKS = 8, 5, 12
+MIN_BLOCK, OCTAVES, MIN_BLOCKS = 8, 5, 12
 FROM_BOTTOM = 1.5       # blocks of a side-scan begin at this many altitudes
 NEIGHBOURS, OVER_DB, UNDER_DB = 9, 6.0, 3.0
 
 
 def block_sizes(a, b):
     """Octaves of metres, from 8 samples of the coarser images on."""
-    return LEAST_BLOCK * max(a.range_step_m, b.range_step_m) * 2.0 ** np.arange(OCTAVES)
+    return MIN_BLOCK * max(a.range_step_m, b.range_step_m) * 2.0 ** np.arange(OCTAVES)
 
 
 def block_figures(images, grid, zone, sizes_m):
@@ -42,7 +42,7 @@ def block_figures(images, grid, zone, sizes_m):
         cut, whole = (x[:, :rows * height, :columns * width].reshape(len(x), rows, height, columns, width)
                       for x in (powers, used))
         level = np.where(whole.all(axis=(2, 4)), decibels(cut.mean(axis=(2, 4))), np.nan)
-        if np.isfinite(level).sum() >= LEAST_BLOCKS:
+        if np.isfinite(level).sum() >= MIN_BLOCKS:
             row, column = np.arange(rows)[:, None] * height, np.arange(columns) * width
             out.append(Figure.of(f"means over {metres:.2g} m: spread, dB", "spread", "texture", grid.place_of(row, column),
                                  np.arange(len(level))[:, None, None], level))
@@ -55,7 +55,7 @@ def trend_of(powers, used, ranges_m):
     known = (count > 0) & (ranges_m > 0.0)
     mean = (powers * used).sum(axis=(0, 2))[known] / count[known]
     known[known], mean = mean > 0.0, mean[mean > 0.0]
-    if known.sum() < LEAST_BLOCK:
+    if known.sum() < MIN_BLOCK:
         return np.ones(len(ranges_m))
     x = np.log(ranges_m[known])
     middle, size = x.mean(), x.std()
@@ -74,7 +74,7 @@ def off_figures(images):
     off = off_by(images.ping_levels_db)
     if off.shape[1] < NEIGHBOURS:
         return out
-    places = np.arange(off.shape[1]) * min(off.shape[1], MOST_PLACES) // off.shape[1]
+    places = np.arange(off.shape[1]) * min(off.shape[1], MAX_PLACES) // off.shape[1]
     return [Figure.of(f"pings {OVER_DB:g} dB over their neighbours", "mean", "hundredth", places, 0, off > OVER_DB),
             Figure.of(f"pings {UNDER_DB:g} dB under their neighbours", "mean", "hundredth", places, 0, off < -UNDER_DB),
             Figure.of("pings: deviation from their neighbours, dB", "spread", "texture", places, 0, off)] + out

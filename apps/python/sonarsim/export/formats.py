@@ -127,7 +127,7 @@ class Yolo(Format):
         if self.options.polygons:
             values = runs.joined(one["outlines"])
         elif self.options.oriented:
-            values = runs.least_rectangle(sum(one["outlines"], []))
+            values = runs.min_rectangle(sum(one["outlines"], []))
         return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
 
     def finish(self):

@@ -8,12 +8,12 @@ from PIL import Image
 
 from .. import data
 from . import runs
-from .source import MOST_PIXELS, object_of
+from .source import MAX_PIXELS, object_of
 from .stand_out import Greys
 
-Image.MAX_IMAGE_PIXELS = MOST_PIXELS
+Image.MAX_IMAGE_PIXELS = MAX_PIXELS
 TRIES = 20          # places that are drawn for each crop of the bed
-LEAST_LIT = 0.98    # share of its pixels within the view
+MIN_LIT = 0.98    # share of its pixels within the view
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
 
 
@@ -92,7 +92,7 @@ def crops_of(picture, pixels, objects, boxes, options):
             middle = [low + drawn.random() * (high - low) for low, high in zip((0, 0), image.size)]
             frame = frame_of(middle, sides)
             inside = lit[max(0, round(frame[2])):round(frame[3]), max(0, round(frame[0])):round(frame[1])]
-            is_bed = (inside.sum() >= LEAST_LIT * sides[0] * sides[1] and
+            is_bed = (inside.sum() >= MIN_LIT * sides[0] * sides[1] and
                       not any(runs.cut_box(box, frame) for box in boxes))
             if is_bed and add(f"bed-{number}", middle, []):
                 break
@@ -215,7 +215,7 @@ def pixels_of(picture, is_whole, options):
             pixels = np.floor(255 * np.sqrt(shares.clip(0, 1)) + 0.5).astype(np.uint8)
         else:
             with Image.open(picture.path, formats=["PNG"]) as image:
-                if image.width * image.height > data.MOST_INFLATED * picture.path.stat().st_size:
+                if image.width * image.height > data.MAX_INFLATED * picture.path.stat().st_size:
                     raise data.Damage("its width and height cannot be right")
                 is_grey = image.mode in ("L", "I", "I;16")
                 is_copy = (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..data import Damage
 
-MOST_GROUPS = 7     # a run of 2^31 pixels takes fewer groups of five bits
+MAX_GROUPS = 7     # a run of 2^31 pixels takes fewer groups of five bits
 
 
 def pixels_of(counts, width, height):
@@ -17,7 +17,7 @@ def pixels_of(counts, width, height):
         raise Damage("has a mask that is not in COCO's compressed runs")
     ends = np.flatnonzero(last) + 1
     begins = np.concatenate(([0], ends[:-1]))
-    if (ends - begins).max() > MOST_GROUPS:
+    if (ends - begins).max() > MAX_GROUPS:
         raise Damage("has a mask with a run that is too long")
     group = np.arange(codes.size) - np.repeat(begins, ends - begins)
     runs = np.add.reduceat((codes & 0x1F) << 5 * group, begins)
@@ -142,7 +142,7 @@ def outline_from(grid, x, y, walked):
             return corners
 
 
-def least_rectangle(corners):
+def min_rectangle(corners):
     """The four corners of the rectangle of least area around points (x, y). One of its sides lies on their hull."""
     hull = []
     for ring in (sorted(set(corners)), sorted(set(corners), reverse=True)):     # the lower side, then the upper one

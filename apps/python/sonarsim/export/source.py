@@ -10,8 +10,8 @@ from .. import data
 from ..command import need
 from . import split
 
-MOST_PIXELS = 1 << 31
-MOST_FAN_PIXELS = 1 << 22   # of a fan that is drawn from its bins; those of sonarsim are at most 1024 wide
+MAX_PIXELS = 1 << 31
+MAX_FAN_PIXELS = 1 << 22   # of a fan that is drawn from its bins; those of sonarsim are at most 1024 wide
 ADVICE = "set output.labels: [objects] and render it again"
 FACTS = ("range_m", "bearing_deg", "contrast_db", "visible_share", "shadow_contrast_db")
 
@@ -53,7 +53,7 @@ class Source:
         found = named_datasets(folder, is_one_of_many)
         has_variants = found[0][1].folder != folder
         is_split = has_variants and options.split
-        parts = split.of_variants(options.split, len(found), options.rounds) if is_split else [None] * len(found)
+        parts = split.variants_parts(options.split, len(found), options.rounds) if is_split else [None] * len(found)
         for (name, dataset), part in zip(found, parts):
             if not dataset.classes:
                 raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
@@ -79,7 +79,7 @@ class Source:
         dataset, shares = self.datasets[index], self._shares[index]
         count, file = dataset.description["poses"], dataset.folder / "dataset.json"
         if isinstance(shares, dict):
-            parts = split.of_poses(shares, count, options.gap, options.rounds)
+            parts = split.poses_parts(shares, count, options.gap, options.rounds)
         else:
             parts = [shares if options.split else "train"] * count
         for sensor in dataset.sensors.values():
@@ -121,14 +121,14 @@ def require_known(given, known, option):
 
 def pictures_of(sensor, parts, options):
     """Yields the pictures of a sensor; none for a kind without pictures. `parts` has those of all poses."""
-    of_ping = [parts[pose] for pose in sensor.pings]
+    part_of_ping = [parts[pose] for pose in sensor.pings]
     if sensor.picture("sensor") or sensor.picture("sweep"):
-        yield from records_of(sensor, of_ping)
+        yield from records_of(sensor, part_of_ping)
     elif sensor.kind in ("imaging", "profiling"):
-        yield from pings_of(sensor, of_ping, options.bins, options.image == "raw")
+        yield from pings_of(sensor, part_of_ping, options.bins, options.image == "raw")
 
 
-def pings_of(sensor, of_ping, is_bins, is_raw):
+def pings_of(sensor, part_of_ping, is_bins, is_raw):
     wanted = ("raw",) if is_raw else ("image", "polar") if is_bins else ("fan",)
     names = [name for name in wanted if name in sensor.keys]
     if not names and is_raw:
@@ -145,13 +145,13 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
     bins = None
     if not is_bins:
         width, height = (data.whole(sensor.description["fan"][key], 1, key) for key in ("width_px", "height_px"))
-        if is_raw and width * height > MOST_FAN_PIXELS:
+        if is_raw and width * height > MAX_FAN_PIXELS:
             raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has too large a fan: {width} x {height} pixels")
         if is_raw:
             bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), width, -1)
         shape = width, height
     full_value = full_value_of(sensor) if is_raw else float(sensor.description["full_scale"])
-    for k, part in enumerate(of_ping):
+    for k, part in enumerate(part_of_ping):
         one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
                       [part])
         one.bins, one.full_scale = bins, full_value
@@ -187,11 +187,11 @@ def pixel_m_of(picture, sensor, dataset):
     return float(np.diff(sensor.range_edges_m).mean()), along
 
 
-def records_of(sensor, of_ping):
+def records_of(sensor, part_of_ping):
     """The waterfall or echogram of a sensor, or the picture of each sweep."""
     strip, sweep = sensor.picture("sensor"), sensor.picture("sweep")
-    steps = max(1, len(of_ping)) if strip else data.whole(sweep["pings"], 1, "pings")
-    for k in range(-(-len(of_ping) // steps)):
+    steps = max(1, len(part_of_ping)) if strip else data.whole(sweep["pings"], 1, "pings")
+    for k in range(-(-len(part_of_ping) // steps)):
         facts = f"{sensor.name}/objects.json" if strip else f"{sensor.name}/objects_{k:04}.json"
         if not (sensor.folder / facts).is_file():
             raise data.DataError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
@@ -201,9 +201,9 @@ def records_of(sensor, of_ping):
             sheet = data.read_json(facts.read_bytes())
             shape = sheet["width"], sheet["height"]
         # The last picture of sweeps shows pings of the sweep before, too, if it is cut short.
-        end = min((k + 1) * steps, len(of_ping))
+        end = min((k + 1) * steps, len(part_of_ping))
         each = data.whole(strip.get("pings_per_pixel", 1), 1, "pings_per_pixel") if strip else steps
-        shown = [set(of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
+        shown = [set(part_of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
         one = picture(sensor, path, facts, "strip" if strip else "sweep", shape,
                       [parts.pop() if len(parts) == 1 else None for parts in shown])
         one.rows_are_pings = not strip or strip.get("pings_along", "y") == "y"
@@ -214,7 +214,7 @@ def records_of(sensor, of_ping):
 
 def picture(sensor, path, facts, kind, shape, parts):
     width, height = (data.whole(side, 1, "width or height") for side in shape)
-    if width * height > MOST_PIXELS:
+    if width * height > MAX_PIXELS:
         raise data.DataError(f"{path}: is too large a picture: {width} x {height} pixels")
     return Picture(path, facts, "", 0, kind, width, height, float(sensor.description["full_scale"]), parts)
 

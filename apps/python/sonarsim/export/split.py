@@ -39,7 +39,7 @@ def stretches(shares, count, gap, rounds):
     return parts
 
 
-def of_poses(shares, poses, gap, rounds):
+def poses_parts(shares, poses, gap, rounds):
     """The part of each pose. ValueError if a part gets none. `gap`: None for a tenth of the poses, at most 10."""
     parts = stretches(shares, poses, min(10, poses // 10) if gap is None else gap, rounds)
     for part in shares:
@@ -49,7 +49,7 @@ def of_poses(shares, poses, gap, rounds):
     return parts
 
 
-def of_variants(shares, variants, rounds):
+def variants_parts(shares, variants, rounds):
     """The part of each variant. Fewer variants than parts all belong to the first part."""
     if variants < len(shares):
         return [next(iter(shares))] * variants

@@ -58,8 +58,8 @@ class Shown:
                              "id", "name", "class", "mask")
             own = (one["box_px"], "x", "y") if "box_px" in one else (one["box_bins"], "beam", "range")
             shape = shape_of(*own, one.get("mask"), one.get("shadow_box_px") or shadow.get("box_bins"))
-            of_fan = fan and shape_of(fan["box_px"], "x", "y", fan.get("mask"), fan.get("shadow_box_px"))
-            entries.append([self.label_of[one["id"]], facts, shape, of_fan])
+            fan_shape = fan and shape_of(fan["box_px"], "x", "y", fan.get("mask"), fan.get("shadow_box_px"))
+            entries.append([self.label_of[one["id"]], facts, shape, fan_shape])
         return entries
 
     def contents(self, pattern, numbers, taken):

@@ -11,7 +11,7 @@ from .arrays import read_soundings
 from .dataset import read_dataset
 from .description import FILE_NAME, read_description
 from .files import read_files
-from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
+from .recording import MAX_VALUES, Law, Recording, RecordingError, Soundings
 
 __all__ = ["Law", "Recording", "RecordingError", "Soundings", "open_recording"]
 
@@ -19,17 +19,17 @@ __all__ = ["Law", "Recording", "RecordingError", "Soundings", "open_recording"]
 def open_recording(path, sensor=None, pings=None):
     """The recording in a folder with recording.yaml, in that file itself, or in a dataset. `sensor` chooses one of a
     dataset's; `pings` is the number to read, from the first. RecordingError with one sentence for anything wrong."""
-    path, most_pings = pathlib.Path(path), pings or MOST_VALUES
+    path, max_pings = pathlib.Path(path), pings or MAX_VALUES
     file = path / FILE_NAME if path.is_dir() else path
     if file.exists():
         own = read_description(file)
-        recording = (read_soundings if own.source == "soundings" else read_files)(own, most_pings)
+        recording = (read_soundings if own.source == "soundings" else read_files)(own, max_pings)
         recording.frequency_hz = recording.frequency_hz or own.frequency_hz or 0.0
         if own.full_value_is_auto or own.law is None:
             full_value = recording.found_full_value()
             recording.law = dataclasses.replace(recording.law, **({"full_value": full_value} if full_value else {}))
     elif (path / "dataset.json").exists():
-        recording = read_dataset(path, sensor, most_pings)
+        recording = read_dataset(path, sensor, max_pings)
     else:
         raise RecordingError(f"{path}: is not a recording: there is neither {FILE_NAME} (docs/calibrate.md) nor dataset.json")
     recording.check(path)

@@ -7,7 +7,7 @@ import struct
 
 import numpy as np
 
-from .recording import MOST_VALUES, Law, Recording
+from .recording import MAX_VALUES, Law, Recording
 
 FASTEST_SOUND_M_S = 1e4     # headers with a faster sound are damaged
 
@@ -17,28 +17,28 @@ def field(data, layout, at):
     return struct.unpack_from("<" + layout, data, at)[0]
 
 
-def frames(data, at, length, most_pings):
+def frames(data, at, length, max_pings):
     """The frames of one length behind the header of a file, as views."""
     whole, rest = divmod(max(len(data) - at, 0), length)
-    if rest and whole < most_pings:
+    if rest and whole < max_pings:
         raise ValueError("is cut off within a frame")
     if not whole:
         raise ValueError("has no frames")
-    return [memoryview(data)[at + k * length:at + (k + 1) * length] for k in range(min(whole, most_pings))]
+    return [memoryview(data)[at + k * length:at + (k + 1) * length] for k in range(min(whole, max_pings))]
 
 
-def pings_among(data, mark, header, most_pings, length_of, pings_of):
+def pings_among(data, mark, header, max_pings, length_of, pings_of):
     """The pings of the messages that begin with a mark, among any other bytes. `length_of(at)` is the length of the one at
     an offset, 0 if it is not read; `pings_of` gives a list of its pings, None if its sum is wrong."""
     found, at, is_cut_off = [], data.find(mark), False
-    while at >= 0 and len(found) < most_pings and at + header <= len(data):
+    while at >= 0 and len(found) < max_pings and at + header <= len(data):
         length = length_of(at)
         is_inside = at + length <= len(data)
         pings = pings_of(memoryview(data)[at:at + length]) if length and is_inside else None
         is_cut_off = pings is None and (is_cut_off or not is_inside)
         found += pings or []
         at = data.find(mark, at + (1 if pings is None else length))
-    if (is_cut_off or at >= 0) and len(found) < most_pings:
+    if (is_cut_off or at >= 0) and len(found) < max_pings:
         raise ValueError("is cut off within a message")
     return found
 
@@ -47,8 +47,8 @@ def stacked(pings):
     """Arrays of pings of one shape as float32 [ping, ...]. ValueError if they differ or are too many."""
     if len({ping.shape for ping in pings}) > 1:
         raise ValueError("changes its range; split the file there")
-    if len(pings) * pings[0].size > MOST_VALUES:
-        raise ValueError(f"has more than {MOST_VALUES} values; take fewer pings")
+    if len(pings) * pings[0].size > MAX_VALUES:
+        raise ValueError(f"has more than {MAX_VALUES} values; take fewer pings")
     return np.array(pings, np.float32)
 
 

@@ -4,14 +4,14 @@ import numpy as np
 from .. import data
 from .arrays import two_sides
 from .description import Section, read_yaml
-from .recording import MOST_POWER, MOST_VALUES, Law, Recording, RecordingError, Soundings
+from .recording import MAX_POWER, MAX_VALUES, Law, Recording, RecordingError, Soundings
 
 LARGEST_MISSION = 1 << 26
-LEAST_QUALITY = 0.5
+MIN_QUALITY = 0.5
 KINDS = {"sidescan": "sidescan", "echosounder": "echosounder", "scanning": "scanning", "profiling": "soundings"}
 
 
-def read_dataset(folder, name, most_pings):
+def read_dataset(folder, name, max_pings):
     dataset = data.open_dataset(folder)
     names = list(dataset.sensors)
     if not dataset.complete:
@@ -20,12 +20,12 @@ def read_dataset(folder, name, most_pings):
         wrong = f"no sensor {name!r}" if name else "several sensors; choose one with --sensor"
         raise RecordingError(f"{folder}: has {wrong}; there are {', '.join(names)}")
     with data.reading(f"{folder}: sensor {name or names[0]!r}"):
-        return recording_of(folder, dataset[name or names[0]], most_pings)
+        return recording_of(folder, dataset[name or names[0]], max_pings)
 
 
-def recording_of(folder, sensor, most_pings, values="raw"):
+def recording_of(folder, sensor, max_pings, values="raw"):
     """The recording of a sensor: its values after the companding, if it has them, or "linear" before it."""
-    pings, middles = min(len(sensor), most_pings), data.middles(sensor.range_edges_m)
+    pings, middles = min(len(sensor), max_pings), data.middles(sensor.range_edges_m)
     recording = Recording(KINDS.get(sensor.kind, "imaging"), first_range_m=float(middles[0]),
                           range_step_m=float(middles[1] - middles[0]) if len(middles) > 1 else 0.0)
     name = "raw" if values == "raw" and "raw" in sensor.keys else "polar"
@@ -45,8 +45,8 @@ def require(folder, sensor, is_right, values=0):
     """RecordingError unless an array has the right shape, and values are few."""
     if not is_right:
         raise RecordingError(f"{folder}: an array of {sensor.name} has another shape than dataset.json says")
-    if values > MOST_VALUES:
-        raise RecordingError(f"{folder}: has more than {MOST_VALUES} values; take fewer pings with --pings")
+    if values > MAX_VALUES:
+        raise RecordingError(f"{folder}: has more than {MAX_VALUES} values; take fewer pings with --pings")
 
 
 def read_images(folder, sensor, name, pings):
@@ -85,7 +85,7 @@ def soundings_of(folder, sensor, recording):
     require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] >= 5)
     range_m, quality = records[:pings, :, 0], records[:pings, :, 4]
     bins = (range_m - recording.first_range_m) / recording.range_step_m + 0.5
-    found = (quality >= LEAST_QUALITY) & (bins >= 0.0) & (bins < ranges)
+    found = (quality >= MIN_QUALITY) & (bins >= 0.0) & (bins < ranges)
     angle = np.broadcast_to(-recording.bearing_rad, range_m.shape)
     width_rad = np.abs(np.diff(sensor.azimuth_edges_rad))
     half = 0.5 * np.where(found, range_m * width_rad * np.tan(np.abs(angle)), 0.0) / recording.range_step_m
@@ -109,7 +109,7 @@ def set_facts(folder, sensor, is_raw, recording):
         return Section(path, keys, keys)
     instrument, water = section(own), section(water)
     full_scale = data.numbers([sensor.description["full_scale"]], "full_scale")
-    if not 0 < full_scale[0] < MOST_POWER:
+    if not 0 < full_scale[0] < MAX_POWER:
         raise data.Damage("'full_scale' is not above 0")
     recording.law = Law("amplitude", full_value=float(full_scale[0]))
     if "instrument" in sensor.description:      # the calibrated model

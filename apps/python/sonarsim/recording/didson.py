@@ -9,23 +9,23 @@ from .bytes_of_pings import FASTEST_SOUND_M_S, decibel_law, field, frames, law_o
 
 ARIS = b"DDF\x05"
 HEADERS = {b"DDF\x03": (512, 256), b"DDF\x04": (1024, 1024), ARIS: (1024, 1024)}    # of the file and of a frame
-MOST_SAMPLES = 65536
+MAX_SAMPLES = 65536
 CLASSIC_PERIOD_S, EXTENDED_PERIOD_S = 0.000512, 0.000572
 LAST_CLASSIC_SERIAL = 18
-MOST_PERIODS = 1000
+MAX_PERIODS = 1000
 FREQUENCIES_HZ = {0: (1.1e6, 1.8e6), 1: (1.8e6, 3e6), 2: (7e5, 1.2e6)}    # of an ARIS 1800, 3000 and 1200: low, high
 
 
-def read(data, most_pings, own):
+def read(data, max_pings, own):
     mark = bytes(data[:4])
     if mark not in HEADERS:
         raise ValueError("is a DIDSON file of another version than 3, 4 and 5, which are read")
     file_header, frame_header = HEADERS[mark]
     beams, samples = field(data, "I", 16), field(data, "I", 24)
     name, facts_of = ("ARIS", facts_of_aris) if mark == ARIS else ("DIDSON", facts_of_didson)
-    if beams not in ((48, 64, 96, 128) if mark == ARIS else (48, 96)) or not 0 < samples <= MOST_SAMPLES:
+    if beams not in ((48, 64, 96, 128) if mark == ARIS else (48, 96)) or not 0 < samples <= MAX_SAMPLES:
         raise ValueError(f"has {beams} beams and {samples} samples, which no {name} has")
-    found = frames(data, file_header, frame_header + beams * samples, most_pings)
+    found = frames(data, file_header, frame_header + beams * samples, max_pings)
     if any(bytes(frame[12:16]) != mark for frame in found):
         raise ValueError("has a frame of another version")
     values = [np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found]
@@ -55,7 +55,7 @@ def facts_of_didson(data, found, own):
     ranges_s = []
     for frame in found:
         is_classic, periods = serial <= LAST_CLASSIC_SERIAL or field(frame, "i", 192) & 1, field(frame, "i", 52)
-        if not 0 <= periods < MOST_PERIODS:
+        if not 0 <= periods < MAX_PERIODS:
             raise ValueError("has a frame without a window of range")
         window = (1 if is_fine else 2) * (CLASSIC_PERIOD_S if is_classic else EXTENDED_PERIOD_S) * periods
         ranges_s.append((window + 0.5 / rate_hz, 1.0 / rate_hz))

@@ -13,7 +13,7 @@ DB_PER_STEP = 10.0 * math.log10(2.0) / 256.0
 RANGE_DB = 200.0
 
 
-def read(data, most_pings, own):
+def read(data, max_pings, own):
     pings = [ping for datagram in datagrams(data) if datagram[:4] == b"RAW0" for ping in power_of(datagram)]
     if not pings:
         raise ValueError("has no power of an EK60 (RAW0 datagrams)")
@@ -22,7 +22,7 @@ def read(data, most_pings, own):
     if not near or len(near) > 1 and not own.frequency_hz:
         raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
                          "`frequency_hz`")
-    pings = [ping for ping in pings if ping["frequency_hz"] == near[0]][:most_pings]
+    pings = [ping for ping in pings if ping["frequency_hz"] == near[0]][:max_pings]
     recording = timed_recording(
         "echosounder", [ping["steps"][:, None] for ping in pings], own,
         [(ping["offset"] * ping["sample_s"], ping["sample_s"]) for ping in pings], pings[0]["sound_speed_m_s"],

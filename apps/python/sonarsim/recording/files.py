@@ -6,7 +6,7 @@ import numpy as np
 
 from . import didson, ek60, oculus, ping360, xtf
 from .arrays import bearings_of, read_pings
-from .recording import MOST_VALUES, RecordingError
+from .recording import MAX_VALUES, RecordingError
 
 LARGEST_FILE = 1 << 31
 READERS = {     # of `logs`, by an offset and the bytes there
@@ -14,18 +14,18 @@ READERS = {     # of `logs`, by an offset and the bytes there
     (4, b"\x02I"): "an .all"}
 
 
-def read_files(own, most_pings):
+def read_files(own, max_pings):
     """The recording in the files of `files`, `xtf`, `oculus` or `logs`."""
     parts, pings, values = [], 0, 0
     for path in own.files:
-        if pings == most_pings:
+        if pings == max_pings:
             break
-        part = (read_pings if own.source == "files" else read_file)(path, own, most_pings - pings)
+        part = (read_pings if own.source == "files" else read_file)(path, own, max_pings - pings)
         if part.kind != own.kind:
             raise RecordingError(f"{path}: has pings of the kind {part.kind}, and recording.yaml says {own.kind}")
         pings, values = pings + len(part), values + part.values.size
-        if values > MOST_VALUES:
-            raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
+        if values > MAX_VALUES:
+            raise RecordingError(f"{path}: makes more than {MAX_VALUES} values in all; take fewer pings")
         parts.append(part)
     recording = joined(own, parts)
     if own.kind == "imaging" and recording.bearing_rad is None:
@@ -36,7 +36,7 @@ def read_files(own, most_pings):
     return recording
 
 
-def read_file(path, own, most_pings):
+def read_file(path, own, max_pings):
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise ValueError("is larger than 2 GB; split it")
@@ -45,7 +45,7 @@ def read_file(path, own, most_pings):
             (reader for (at, mark), reader in READERS.items() if content.startswith(mark, at)), ping360.read)
         if isinstance(read, str):
             raise ValueError(f"is {read} file, which is not read; write its pings as arrays (docs/calibrate.md)")
-        return read(content, most_pings, own)
+        return read(content, max_pings, own)
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
     except struct.error as fault:

@@ -18,10 +18,10 @@ LAYOUTS = "ddBHHII"
 TYPES = {0: "<u1", 1: "<u2", 3: "<u4"}
 
 
-def read(data, most_pings, own):
+def read(data, max_pings, own):
     def length_of(at):
         return HEADER + field(data, "I", at + 10) if field(data, "H", at + 6) == PING_RESULT else 0
-    pings = pings_among(data, MARK, HEADER, most_pings, length_of, lambda message: [ping_of(message)])
+    pings = pings_among(data, MARK, HEADER, max_pings, length_of, lambda message: [ping_of(message)])
     if not pings:
         raise ValueError("has no ping result of an Oculus")
     speed, step, image, bearings = pings[0]

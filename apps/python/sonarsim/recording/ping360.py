@@ -11,18 +11,18 @@ MARK = b"BR"
 HEADER = 8
 SAMPLES_AT = {2300: 14, 2301: 20}   # in the payload, by the message's number
 PERIOD_S = 25e-9
-MOST_ODD = 0.1              # share of the pings
+MAX_ODD = 0.1              # share of the pings
 
 
-def read(data, most_pings, own):
+def read(data, max_pings, own):
     def length_of(at):
         return HEADER + field(data, "H", at + 2) + 2 if field(data, "H", at + 4) in SAMPLES_AT else 0
-    found = pings_among(data, MARK, HEADER, most_pings, length_of, pings_of)
+    found = pings_among(data, MARK, HEADER, max_pings, length_of, pings_of)
     if not found:
         raise ValueError("has no pings of a Ping360, and is not a .raw of an EK60, a .ddf or an .aris")
     shapes = collections.Counter((periods, len(samples)) for periods, samples in found)
     usual, odd = shapes.most_common(1)[0][0], len(found) - shapes.most_common(1)[0][1]
-    if odd <= MOST_ODD * len(found):    # the sonar sends one with another length where its settings change
+    if odd <= MAX_ODD * len(found):    # the sonar sends one with another length where its settings change
         found = [ping for ping in found if (ping[0], len(ping[1])) == usual]
     recording = timed_recording("scanning", [samples[:, None] for _, samples in found], own,
                                 [(0.5 * PERIOD_S * periods, PERIOD_S * periods) for periods, _ in found], law=law_of(own))

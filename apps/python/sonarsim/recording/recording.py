@@ -7,12 +7,12 @@ from ..data import DataError as RecordingError   # one sentence: the file, what 
 
 KINDS = ("imaging", "sidescan", "scanning", "echosounder", "soundings")
 LAWS = ("amplitude", "power", "gamma", "decibel")
-MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
-MOST_RANGES = 1 << 20
-MOST_POWER = 1e30           # a float32 holds it, and a double its cube
+MAX_VALUES = 1 << 28       # of one file, and of all pings of a recording
+MAX_RANGES = 1 << 20
+MAX_POWER = 1e30           # a float32 holds it, and a double its cube
 # Values clip at the largest one if this share and number are at it, and so many times those in the two per cent below.
-LEAST_CLIPPED, FEWEST_CLIPPED, MOST_LIKE_OTHERS = 1e-3, 30, 2.0
-LEAST_KEPT = 0.5            # share of ranges and beams that are no margin
+MIN_CLIPPED, FEWEST_CLIPPED, MAX_LIKE_OTHERS = 1e-3, 30, 2.0
+MIN_KEPT = 0.5            # share of ranges and beams that are no margin
 
 
 @dataclasses.dataclass
@@ -44,7 +44,7 @@ class Law:
             else:
                 power = {"power": 1.0, "amplitude": 2.0, "gamma": 2.0 / self.exponent}[self.kind]
                 powers = np.where(values > 0.0, np.maximum(share, 0.0) ** power, 0.0)
-        return np.minimum(powers, MOST_POWER).astype(np.float32)
+        return np.minimum(powers, MAX_POWER).astype(np.float32)
 
 
 @dataclasses.dataclass
@@ -92,7 +92,7 @@ class Recording:
             return None
         largest = float(self.values.max())
         at, below = (self.values >= largest).mean(), ((self.values >= 0.98 * largest) & (self.values < largest)).mean()
-        is_many = at > max(LEAST_CLIPPED, MOST_LIKE_OTHERS * below) and at * self.values.size > FEWEST_CLIPPED
+        is_many = at > max(MIN_CLIPPED, MAX_LIKE_OTHERS * below) and at * self.values.size > FEWEST_CLIPPED
         return largest if largest < full and is_many else None
 
     def without_margins(self):
@@ -104,7 +104,7 @@ class Recording:
         is_imaging, ends = self.kind == "imaging", []
         for axis in (1, 0):
             kept = np.flatnonzero(~same.all(axis=axis))
-            is_margin = kept.size > LEAST_KEPT * same.shape[1 - axis]   # else it is a recording of nothing
+            is_margin = kept.size > MIN_KEPT * same.shape[1 - axis]   # else it is a recording of nothing
             ends.append(slice(kept[0], kept[-1] + 1) if is_margin else slice(None))
         values = self.values[:, ends[0], ends[1] if is_imaging else slice(None)]
         return dataclasses.replace(self, values=values, bearing_rad=self.bearing_rad[ends[1]] if is_imaging else None,

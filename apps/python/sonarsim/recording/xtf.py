@@ -10,13 +10,13 @@ from .recording import Recording
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
 SIDE_SCAN = 0
 PORT, STARBOARD = 1, 2
-MOST_CHANNELS = 64
+MAX_CHANNELS = 64
 LONGEST_RANGE_M = 1e5
 # By the field SampleFormat, or in older files, where it is 0, by minus the number of bytes.
 SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
 
 
-def read(data, most_pings, own):
+def read(data, max_pings, own):
     """The side-scan pings; those that lack a side are left out."""
     channels, pings = channels_of(data), []
     first = full_value = 0.0
@@ -31,7 +31,7 @@ def read(data, most_pings, own):
                 raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
                                  f"{len(first[0])} over {first[1]:g} m; split the file where the range changes")
         pings.append(np.stack([sides[PORT][0][::-1], sides[STARBOARD][0]], axis=1))     # port ends at nadir
-        if len(pings) == most_pings:
+        if len(pings) == max_pings:
             break
     if not pings:
         raise ValueError("has no side-scan pings")
@@ -46,7 +46,7 @@ def channels_of(data):
     if field(data, "B", 0) != 0x7B:
         raise ValueError("is not an XTF file")
     count = field(data, "H", 166) + field(data, "H", 168)
-    if not 0 < count <= MOST_CHANNELS:
+    if not 0 < count <= MAX_CHANNELS:
         raise ValueError("has no channels of a sonar, or too many")
     channels = []
     for at in range(256, 256 + count * CHANNEL_INFO, CHANNEL_INFO):

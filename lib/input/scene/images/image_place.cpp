@@ -87,16 +87,16 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& 
 }
 
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
-                          const Eigen::AlignedBox2d& box_m, std::size_t most,
+                          const Eigen::AlignedBox2d& box_m, std::size_t max_pixels,
                           const Location& where) {
     const PixelWindow window{
         pixels_between(box_m.min().y(), box_m.max().y(), grid.y_m, grid.row_m, image.height),
         pixels_between(box_m.min().x(), box_m.max().x(), grid.x_m, grid.column_m, image.width)};
-    if (window.width() * window.height() <= most) return window;
+    if (window.width() * window.height() <= max_pixels) return window;
     throw InputError(where, fmt::format("the mission needs {} x {} pixels of it, and at most {} "
                                         "have room; make it coarser with gdal_translate -outsize "
                                         "50% 50%, or cut a part out with gdal_translate -projwin",
-                                        window.width(), window.height(), most));
+                                        window.width(), window.height(), max_pixels));
 }
 
 }  // namespace sonarsim

@@ -81,7 +81,7 @@ struct PixelWindow {
 /// The pixels in a box of the map's coordinates, with a margin; all rows, or all columns, if fewer
 /// than two would remain. InputError for more pixels than `most`.
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
-                          const Eigen::AlignedBox2d& box_m, std::size_t most,
+                          const Eigen::AlignedBox2d& box_m, std::size_t max_pixels,
                           const Location& where);
 
 }  // namespace sonarsim

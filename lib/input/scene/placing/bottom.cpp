@@ -98,10 +98,10 @@ Eigen::Array2i Bottom::cell_of(const Eigen::Vector2d& point) const {
 
 std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
     const Eigen::Vector2d at = point.head<2>();
-    const double most = point.z() + tolerance;
+    const double top = point.z() + tolerance;
     constexpr double none = -std::numeric_limits<double>::infinity();
     double found = none;
-    const Eigen::Array3f from = (Eigen::Vector3d(at.x(), at.y(), most) - corner_).cast<float>();
+    const Eigen::Array3f from = (Eigen::Vector3d(at.x(), at.y(), top) - corner_).cast<float>();
     const Eigen::Array2i place = cell_of(at);
     const auto cell = static_cast<std::size_t>(place.y()) * side_ + place.x();
     float found_z = -std::numeric_limits<float>::infinity();
@@ -114,7 +114,7 @@ std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double
         const auto& [a, b, c] = surface_.triangles[triangles_[k]];
         double z = none;
         find_height(surface_.vertices[a], surface_.vertices[b], surface_.vertices[c], at, z);
-        if (z > most || !(z > found)) continue;
+        if (z > top || !(z > found)) continue;
         found = z;
         found_z = static_cast<float>(z - corner_.z());
     }

@@ -78,12 +78,13 @@ bool has_gap(const Hull& a, const Hull& b) {
 }
 
 double min_distance(const Hull& corners, const Hull& edges) {
-    double least = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector2d& p : corners) {
         for (std::size_t i = 0; i < edges.size(); ++i)
-            least = std::min(least, distance_to_edge(p, edges[i], edges[(i + 1) % edges.size()]));
+            nearest =
+                std::min(nearest, distance_to_edge(p, edges[i], edges[(i + 1) % edges.size()]));
     }
-    return least;
+    return nearest;
 }
 
 }  // namespace
@@ -192,13 +193,13 @@ double area_of(const Hull& hull) {
     return 0.5 * std::abs(twice);
 }
 
-double distance_between(const Hull& a, const Hull& b, double most) {
+double distance_between(const Hull& a, const Hull& b, double max_m) {
     constexpr double far = std::numeric_limits<double>::infinity();
     if (a.empty() || b.empty()) return far;
     // The margin exceeds the rounding of the distance.
     const Eigen::AlignedBox2d box = box_of(a);
-    const double near = 1.001 * most + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
-                                               box.min().cwiseAbs().maxCoeff());
+    const double near = 1.001 * max_m + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
+                                                box.min().cwiseAbs().maxCoeff());
     if (box.squaredExteriorDistance(box_of(b)) > near * near) return far;
     // Convex polygons are disjoint if and only if an edge of one of them separates them.
     if (!has_gap(a, b) && !has_gap(b, a)) return 0.0;

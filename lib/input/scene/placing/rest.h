@@ -38,6 +38,6 @@ Eigen::AlignedBox2d box_of(const Hull& hull);
 /// The distance between two convex polygons, 0 when they meet; infinite, after a quick test, if it
 /// is clearly more than `most`.
 double distance_between(const Hull& a, const Hull& b,
-                        double most = std::numeric_limits<double>::infinity());
+                        double max_m = std::numeric_limits<double>::infinity());
 
 }  // namespace sonarsim

@@ -56,9 +56,10 @@ class Draws {
 
 std::size_t count_of(const ScatterConfig& rule, std::uint64_t seed, std::uint32_t rule_index) {
     constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
-    const auto fewest = static_cast<std::size_t>(rule.count[0]);
-    const auto most = static_cast<std::size_t>(rule.count[1]);
-    return fewest + Draws(seed, rule_index, rule_count_key).one_of(most - fewest + 1, Draw::count);
+    const auto min_count = static_cast<std::size_t>(rule.count[0]);
+    const auto max_count = static_cast<std::size_t>(rule.count[1]);
+    return min_count +
+           Draws(seed, rule_index, rule_count_key).one_of(max_count - min_count + 1, Draw::count);
 }
 
 constexpr int max_tries = 1000;  // positions for each object
@@ -238,18 +239,18 @@ std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
                                      std::span<const Surface* const> shapes,
                                      std::uint32_t rule_index, std::uint64_t seed,
                                      const Bottom& bottom, TakenGround& taken) {
-    constexpr std::uint32_t most_redraws = 100;
+    constexpr std::uint32_t max_redraws = 100;
     const std::size_t count = count_of(rule, seed, rule_index);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {
         const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
         std::optional<Placed> placed;
-        for (std::uint32_t redraw = 0; redraw < most_redraws && !placed; ++redraw)
+        for (std::uint32_t redraw = 0; redraw < max_redraws && !placed; ++redraw)
             placed = place_one(rule, shapes, draws, redraw, bottom, taken, i, count);
         if (!placed) {
             throw InputError(rule.place, fmt::format("'{}': object {} lies wholly below the bottom "
                                                      "in all of {} draws; lower bury or bury_m",
-                                                     printable(rule.name), i + 1, most_redraws));
+                                                     printable(rule.name), i + 1, max_redraws));
         }
         if (!rule.overlap) taken.add(std::move(placed->ground));
         objects.push_back(placed->object);

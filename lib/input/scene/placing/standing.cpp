@@ -34,9 +34,9 @@ bool rests_upright(const Surface& surface, int axis) {
     std::vector<Eigen::Vector3d> all;
     std::vector<Eigen::Vector3d> lowest;
     for (const Eigen::Vector3d& vertex : surface.vertices) {
-        const Eigen::Vector3d seen(vertex[(axis + 1) % 3], vertex[(axis + 2) % 3], 0.0);
-        all.push_back(seen);
-        if (vertex[axis] <= limit) lowest.push_back(seen);
+        const Eigen::Vector3d visible(vertex[(axis + 1) % 3], vertex[(axis + 2) % 3], 0.0);
+        all.push_back(visible);
+        if (vertex[axis] <= limit) lowest.push_back(visible);
     }
     return area_of(hull_of(lowest)) >= broad * area_of(hull_of(all));
 }

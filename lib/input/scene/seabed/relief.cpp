@@ -140,12 +140,12 @@ void add_roughness(const BedGrid& grid, const BedRoughnessConfig& roughness, std
     constexpr double min_t = 1.6;
     constexpr double step = 4.0;
     // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.
-    constexpr double most = 10.0;
+    constexpr double max_decay = 10.0;
     const double corner = 2.0 * pi / roughness.corner_m;
     const double a = 0.5 * exponent;
     const double factor = strength * pi * logarithm(step) * exponential(-log_gamma(a));
     double t = min_t * grid.cell_m * grid.cell_m;
-    for (std::uint32_t octave = 0; t * corner * corner < most; ++octave, t *= step) {
+    for (std::uint32_t octave = 0; t * corner * corner < max_decay; ++octave, t *= step) {
         const double variance = factor * power(t, a - 1.0) * exponential(-t * corner * corner);
         const double deviation = std::sqrt(variance);
         const std::vector<float> field =

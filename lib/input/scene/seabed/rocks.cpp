@@ -74,9 +74,9 @@ std::vector<Cut> cuts_of(std::uint32_t shape, std::uint64_t seed) {
         const SinCos turn = sincos(2.0 * pi * unit_double(block.x2, block.x3));
         const double across = std::sqrt(1.0 - z * z);
         // Cuts are deepest at top and bottom, since rocks come to rest on flat sides.
-        const double least = 0.45 + 0.25 * across;
+        const double inner = 0.45 + 0.25 * across;
         out.push_back({{across * turn.cos, across * turn.sin, z},
-                       least + 0.3 * unit_double(other.x0, other.x1)});
+                       inner + 0.3 * unit_double(other.x0, other.x1)});
     }
     return out;
 }
@@ -160,12 +160,12 @@ std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2,
 
 /// The diameter that a share u of the rocks is smaller than.
 double diameter_at(double u, const BedRockConfig& rocks) {
-    const auto [least, most] = rocks.diameter_m;
-    if (least == most) return least;
+    const auto [min_m, max_m] = rocks.diameter_m;
+    if (min_m == max_m) return min_m;
     // N(>D) = D^-q between the limits: D^-q is uniform.
     const double q = rocks.exponent;
-    const double share = 1.0 - u * (1.0 - power(least / most, q));
-    return std::clamp(least * power(share, -1.0 / q), least, most);
+    const double share = 1.0 - u * (1.0 - power(min_m / max_m, q));
+    return std::clamp(min_m * power(share, -1.0 / q), min_m, max_m);
 }
 
 }  // namespace

@@ -156,10 +156,10 @@ std::vector<BedMixture> mixtures_of(const Seabed& bed) {
     for (std::size_t first = 0; first < bed.sediments.limits.size(); ++first) {
         for (std::size_t step = 1; step <= count; ++step) {
             const std::size_t beyond = step / (border_mixtures + 1);
-            const std::size_t least = beyond ? count + 1 - step : step;
+            const std::size_t min_share = beyond ? count + 1 - step : step;
             out.push_back(
                 {fmt::format("{} + {} % {}", bed.materials[first + beyond],
-                             100 * least / (count + 1), bed.materials[first + 1 - beyond]),
+                             100 * min_share / (count + 1), bed.materials[first + 1 - beyond]),
                  first, static_cast<double>(step) / static_cast<double>(count + 1)});
         }
     }

@@ -111,43 +111,45 @@ class ObjectRecords {
 
     /// Compares the object in `own` and its shadow within `around` with their surroundings.
     void add_contrasts(const RecordValues& values, const BinBox& own, const BinBox& around,
-                       SeenObject& seen) const {
+                       SeenObject& visible) const {
         const LevelMap map = map_of(values);
-        seen.contrast_db = contrast_db(map, map.object, seen.id, own, is_background_);
+        visible.contrast_db = contrast_db(map, map.object, visible.id, own, is_background_);
         BinBox shadow;
         for (int line = around.first_line; line <= around.last_line; ++line) {
             for (int bin = around.first_bin; bin <= around.last_bin; ++bin) {
-                if (map.shadow[static_cast<std::size_t>(line) * values.bins + bin] == seen.id)
+                if (map.shadow[static_cast<std::size_t>(line) * values.bins + bin] == visible.id)
                     shadow.extend(line, bin);
             }
         }
         if (!shadow.is_empty())
-            seen.shadow_contrast_db = contrast_db(map, map.shadow, seen.id, shadow, is_background_);
+            visible.shadow_contrast_db =
+                contrast_db(map, map.shadow, visible.id, shadow, is_background_);
     }
 
-    Json json(const SeenObject& seen, const ObjectMask& mask) const {
+    Json json(const SeenObject& visible, const ObjectMask& mask) const {
         const auto mean = [&](double sum, int count) -> std::optional<double> {
             if (count == 0) return std::nullopt;
             return sum / count;
         };
         constexpr double whole = 65535.0;
         const SceneObjects& objects = context_.assembly.objects;
-        const SceneObjects::Object& object = objects.objects.at(seen.id - 1U);
-        Json json = {
-            {"id", seen.id}, {"name", object.name}, {"class", objects.classes[object.class_index]}};
-        if (seen.side) json["side"] = seen.side;
-        json["pings"] = {seen.pings.first, seen.pings.second};
+        const SceneObjects::Object& object = objects.objects.at(visible.id - 1U);
+        Json json = {{"id", visible.id},
+                     {"name", object.name},
+                     {"class", objects.classes[object.class_index]}};
+        if (visible.side) json["side"] = visible.side;
+        json["pings"] = {visible.pings.first, visible.pings.second};
         json["box_px"] = describe_box({mask.left, mask.right, mask.top, mask.bottom});
         json["area_px"] = mask.area;
         json["mask"] = coco_counts(mask.runs);
-        json["range_m"] = rounded(mean(seen.range_m, seen.bins), 1e3);
-        json["bearing_deg"] = rounded(seen.bearing_deg, 1e2);
-        json["contrast_db"] = rounded(seen.contrast_db, 1e2);
+        json["range_m"] = rounded(mean(visible.range_m, visible.bins), 1e3);
+        json["bearing_deg"] = rounded(visible.bearing_deg, 1e2);
+        json["contrast_db"] = rounded(visible.contrast_db, 1e2);
         json["visible_share"] =
-            rounded(mean(seen.visible_share / whole, seen.bins_with_share), 1e4);
-        if (!seen.shadow_px.is_empty()) json["shadow_box_px"] = describe_box(seen.shadow_px);
-        json["shadow_contrast_db"] = rounded(seen.shadow_contrast_db, 1e2);
-        json["clipped"] = seen.clipped;
+            rounded(mean(visible.visible_share / whole, visible.bins_with_share), 1e4);
+        if (!visible.shadow_px.is_empty()) json["shadow_box_px"] = describe_box(visible.shadow_px);
+        json["shadow_contrast_db"] = rounded(visible.shadow_contrast_db, 1e2);
+        json["clipped"] = visible.clipped;
         return json;
     }
 

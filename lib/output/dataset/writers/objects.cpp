@@ -45,45 +45,45 @@ class PingObjects {
         std::vector<Json> objects;
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
-        for (const ObjectInPing& seen : finished.labels->seen) {
-            objects.push_back(visible_json(seen, finished, T_world_body));
+        for (const ObjectInPing& visible : finished.labels->visible) {
+            objects.push_back(visible_json(visible, finished, T_world_body));
         }
         return objects_text({{"ping", finished.id.pose}}, objects);
     }
 
   private:
-    Json visible_json(const ObjectInPing& seen, const FinishedPing& finished,
+    Json visible_json(const ObjectInPing& visible, const FinishedPing& finished,
                       std::span<const Pose> T_world_body) const {
         const SceneObjects& objects = context_.assembly.objects;
-        const SceneObjects::Object& object = objects.objects[seen.id - 1];
-        const ObjectMask& mask = *mask_of(finished.labels->polar, seen.id);
+        const SceneObjects::Object& object = objects.objects[visible.id - 1];
+        const ObjectMask& mask = *mask_of(finished.labels->polar, visible.id);
         Json json = {
-            {"id", seen.id},
+            {"id", visible.id},
             {"name", object.name},
             {"class", objects.classes[object.class_index]},
             {"box_bins", {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
             {"area_bins", mask.area},
-            {"level", seen.level},
-            {"level_around", number_or_null(seen.surrounding_level)},
-            {"range_m", seen.range_m},
-            {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
-        json["seen_box_sensor_m"] = describe_box(seen.box_sensor_m);
+            {"level", visible.level},
+            {"level_around", number_or_null(visible.surrounding_level)},
+            {"range_m", visible.range_m},
+            {"azimuth_rad", number_or_null(visible.azimuth_rad)}};
+        json["seen_box_sensor_m"] = describe_box(visible.box_sensor_m);
         const Pose& T_world_sensor = finished.traced.T_world_sensor;
-        if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {
+        if (const std::optional<MovingObject>& moving = moving_[visible.id - 1]) {
             const Pose& T_world_object = T_world_body[moving->body];
             json["T_world_object"] = describe_pose(T_world_object);
             json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
         } else {
-            json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], {}, T_world_sensor);
+            json["box_sensor"] = placed_box_json(boxes_[visible.id - 1], {}, T_world_sensor);
         }
         if (!finished.labels->bins.visible_share.empty())
-            json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
-        json["contrast_db"] = number_or_null(seen.contrast_db);
-        if (!seen.shadow.is_empty()) json["shadow"] = shadow_json(seen);
+            json["visible_share"] = finished.labels->bins.visible_share[visible.id - 1];
+        json["contrast_db"] = number_or_null(visible.contrast_db);
+        if (!visible.shadow.is_empty()) json["shadow"] = shadow_json(visible);
         json["clipped"] = is_clipped(mask);
         json["mask"] = coco_counts(mask.runs);
         if (finished.labels->fan_bins) {
-            json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
+            json["fan"] = fan_json(visible, mask_of(finished.labels->fan, visible.id));
         }
         return json;
     }
@@ -95,22 +95,22 @@ class PingObjects {
                (at_side && !is_full_turn(view_));
     }
 
-    static Json shadow_json(const ObjectInPing& seen) {
-        const BinBox& box = seen.shadow;
+    static Json shadow_json(const ObjectInPing& visible) {
+        const BinBox& box = visible.shadow;
         return {{"box_bins",
                  {{"range", {box.first_bin, box.last_bin + 1}},
                   {"beam", {box.first_line, box.last_line + 1}}}},
-                {"area_bins", seen.shadow_bins},
-                {"contrast_db", number_or_null(seen.shadow_contrast_db)}};
+                {"area_bins", visible.shadow_bins},
+                {"contrast_db", number_or_null(visible.shadow_contrast_db)}};
     }
 
     /// Null for an object that lies between the pixels.
-    Json fan_json(const ObjectInPing& seen, const ObjectMask* mask) const {
+    Json fan_json(const ObjectInPing& visible, const ObjectMask* mask) const {
         if (!mask) return nullptr;
         Json json = {{"box_px", describe_box({mask->left, mask->right, mask->top, mask->bottom})},
                      {"area_px", mask->area}};
-        if (!seen.shadow_in_fan.is_empty())
-            json["shadow_box_px"] = describe_box(seen.shadow_in_fan);
+        if (!visible.shadow_in_fan.is_empty())
+            json["shadow_box_px"] = describe_box(visible.shadow_in_fan);
         json["mask"] = coco_counts(mask->runs);
         return json;
     }

@@ -17,7 +17,7 @@ namespace {
 
 using Ids = std::vector<std::uint16_t>;
 
-constexpr std::size_t max_unseen = 32;     // pings between two of one pass
+constexpr std::size_t max_missed = 32;     // pings between two of one pass
 constexpr std::size_t max_passes = 65536;  // numbers of 16 bits
 
 /// The picture of all pings of a sonar. A row, or column, may stand for several pings.
@@ -112,7 +112,7 @@ class Strip {
     }
 
     void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
-        const bool is_new = one.pass == 0 || ping - one.last > max_unseen;
+        const bool is_new = one.pass == 0 || ping - one.last > max_missed;
         if (is_new && passes_.size() < max_passes) {
             one = {static_cast<std::uint16_t>(passes_.size()), ping, {}};
             passes_.emplace_back().id = id;
@@ -181,8 +181,8 @@ class Strip {
 /// The facts of an object in the display of a sweep.
 SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& display,
                             std::uint16_t id, const Sonar& whole) {
-    SeenObject seen;
-    seen.id = id;
+    SeenObject visible;
+    visible.id = id;
     double ahead = 0.0;
     double to_port = 0.0;
     for (int step = 0; step < display.lines; ++step) {
@@ -191,18 +191,18 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
         for (int bin = 0; bin < display.bins; ++bin) {
             const std::size_t k = static_cast<std::size_t>(step) * display.bins + bin;
             if (display.object[k] != id) continue;
-            seen.add(step, bin, source.range_m[bin], display.visible_share[k]);
+            visible.add(step, bin, source.range_m[bin], display.visible_share[k]);
             ahead += at.cos;
             to_port += at.sin;
         }
     }
-    const BinBox& box = seen.box;
+    const BinBox& box = visible.box;
     const bool at_side =
         !display.full_turn && (box.first_line == 0 || box.last_line + 1 == display.lines);
-    seen.clipped = at_side || box.first_bin == 0 || box.last_bin + 1 == display.bins;
-    seen.bearing_deg = -degrees(arctan2(to_port, ahead));
-    source.add_contrasts(display, box, {0, display.lines - 1, 0, display.bins - 1}, seen);
-    return seen;
+    visible.clipped = at_side || box.first_bin == 0 || box.last_bin + 1 == display.bins;
+    visible.bearing_deg = -degrees(arctan2(to_port, ahead));
+    source.add_contrasts(display, box, {0, display.lines - 1, 0, display.bins - 1}, visible);
+    return visible;
 }
 
 /// Writes a file for every sweep of a scanning sonar. A step that an unfinished sweep has not
@@ -225,13 +225,13 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         const Ids mask_ids = source.shadowed(frame, display, drawn.object);
         std::vector<Json> objects;
         for (const ObjectMask& mask : masks(mask_ids)) {
-            SeenObject seen =
+            SeenObject visible =
                 visible_in_sweep(source, drawn, static_cast<std::uint16_t>(mask.id), whole);
-            seen.pings = {begin, end};
+            visible.pings = {begin, end};
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
             if (shadow != shadows.end())
-                seen.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
-            objects.push_back(source.json(seen, mask));
+                visible.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
+            objects.push_back(source.json(visible, mask));
         }
         const Json head{{"picture", scan_file_name("scan", sweep, ".png")},
                         {"width", fan->frame.width},

@@ -32,12 +32,12 @@ std::vector<double> defocus(const LineArray& array, double focus_m, double wavel
     std::vector<double> out;
     if (!(focus_m > 0.0)) return out;
     const double length = array.wavelengths;
-    const double most = 0.25 * pi * length * (sines.edges.back() - sines.edges.front());
+    const double max_phase = 0.25 * pi * length * (sines.edges.back() - sines.edges.front());
     for (int row = 0; row < bins.count; row += lanes) {
         const double range_m = bins.min_m + (row + 0.5 * lanes) * bins.bin_m;
         const double phase =
             0.25 * pi * length * length * wavelength_m * (1.0 / range_m - 1.0 / focus_m);
-        out.push_back(std::clamp(phase, -most, most));
+        out.push_back(std::clamp(phase, -max_phase, max_phase));
     }
     return out;
 }
@@ -92,8 +92,8 @@ __m128 alternating(float a, float b) {
 /// `value_of`, 8 at a time.
 Floats8 values_of(float gain, Floats8 power, Floats8 before) {
     // In this order of arguments NaN stays NaN.
-    const Floats8 finite = least(std::numeric_limits<float>::max(), power);
-    return least(max_value, fma(gain, finite, before));
+    const Floats8 finite = min(std::numeric_limits<float>::max(), power);
+    return min(max_value, fma(gain, finite, before));
 }
 
 /// Writes 8 bins of all beams into rows of the image, each times its gain.

@@ -75,10 +75,10 @@ Complexes correlated(const Complexes& weights) {
 }
 
 /// The weights of the squared pattern, of at most `most` elements, or of the pattern.
-Complexes weights_of_form(Complexes weights, bool powers, int most) {
+Complexes weights_of_form(Complexes weights, bool powers, int max_size) {
     if (!powers) return weights;
     weights = correlated(weights);
-    const int excess = (static_cast<int>(weights.size()) - most + 1) / 2;
+    const int excess = (static_cast<int>(weights.size()) - max_size + 1) / 2;
     return excess > 0 ? Complexes(weights.begin() + excess, weights.end() - excess) : weights;
 }
 

@@ -52,12 +52,13 @@ Backscatter backscatter(const SeafloorScattering& sea_bed) {
     // The specular part has the integral R / 4 over all directions. A peak narrower than the first
     // entry, a tent of radius sqrt(2) / steps, is limited to this integral.
     constexpr double tent = pi / 3.0 * 2.0 / (AngularTable::steps * AngularTable::steps);
-    const double most = 0.25 * sea_bed.reflection() / tent;
+    const double max_specular = 0.25 * sea_bed.reflection() / tent;
     Backscatter out;
     for (int k = 0; k < AngularTable::size; ++k) {
         const double grazing_rad = arcsin(AngularTable::sine(k));
         out.diffuse.push_back(static_cast<float>(sea_bed.diffuse(grazing_rad)));
-        out.specular.push_back(static_cast<float>(std::min(most, sea_bed.specular(grazing_rad))));
+        out.specular.push_back(
+            static_cast<float>(std::min(max_specular, sea_bed.specular(grazing_rad))));
     }
     return out;
 }

@@ -14,10 +14,10 @@ namespace sonarsim {
 
 /// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
 struct PatchBlock {
-    static constexpr int most = 256;
+    static constexpr int capacity = 256;
     static constexpr int spare = 8;  ///< whole vectors are written
     template <class T>
-    using Array = std::array<T, most + spare>;
+    using Array = std::array<T, capacity + spare>;
 
     int count = 0;
     Array<float> x{}, y{}, z{};  ///< m, sensor frame
@@ -37,7 +37,7 @@ struct PointLimits {
 
 /// The number of pieces along a half edge with these extents.
 inline int patches_along(const EdgeExtents& half_edge, float range_m, const PointLimits& limits) {
-    constexpr float most = 256.0F;
+    constexpr float max_patches = 256.0F;
     const auto [depth, y, z] = half_edge;
     float wanted = 1.0F;
     const float per_range = 2.0F / range_m;
@@ -45,7 +45,7 @@ inline int patches_along(const EdgeExtents& half_edge, float range_m, const Poin
     if (limits.sine > 0.0F) wanted = std::max(wanted, std::fabs(y) * per_range / limits.sine);
     if (limits.elevation_sine > 0.0F)
         wanted = std::max(wanted, std::fabs(z) * per_range / limits.elevation_sine);
-    return static_cast<int>(std::ceil(std::min(wanted, most)));
+    return static_cast<int>(std::ceil(std::min(wanted, max_patches)));
 }
 
 /// Half the extents of a piece in range, and across the beams.
@@ -118,7 +118,7 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
             const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * half_row;
             const float area_of_row = area * (1.0F + taper_across * place - taper_along);
             for (int first = 0; first < columns; first += PatchBlock::spare) {
-                if (pieces.count > PatchBlock::most - PatchBlock::spare) {
+                if (pieces.count > PatchBlock::capacity - PatchBlock::spare) {
                     use(pieces);
                     pieces.count = 0;
                 }

@@ -15,7 +15,7 @@ namespace {
 
 /// `exp_neg` of bottom.h, 8 at a time; a compiled loop over it takes twice as long.
 Floats8 exp_neg_of_8(Floats8 x, float longest = exp_neg_cutoff) {
-    const Floats8 turns = least(x, longest) * 1.44269504F;
+    const Floats8 turns = min(x, longest) * 1.44269504F;
     const Floats8 whole = floor(turns);
     const Floats8 rest = (turns - whole) * 0.69314718F;
     Floats8 series = -1.0F / 5040;
@@ -78,7 +78,7 @@ class BackscatterTable {
     Floats8 by_rule(const std::uint32_t* numbers, Floats8 lambert, Floats8 facet,
                     Floats8 sine) const {
         const Floats8 s2 = sine * sine;
-        const Floats8 inverse = Floats8(1.0F) / greatest(s2, 1e-6F);
+        const Floats8 inverse = Floats8(1.0F) / max(s2, 1e-6F);
         const Floats8 steepness = inverse_slope2_.at(numbers) * (inverse - 1.0F);
         const Floats8 facets = facet * (inverse * inverse) * exp_neg_of_8(steepness);
         return fma(lambert, s2, facets);
@@ -87,7 +87,7 @@ class BackscatterTable {
     Floats8 by_table(const std::uint32_t* numbers, Floats8 sine) const {
         const Ints8 material = Ints8::load(reinterpret_cast<const std::int32_t*>(numbers));
         // In this order of arguments NaN becomes 0.
-        const Floats8 root = sqrt(least(greatest(Floats8(1.0F) - sine, 0.0F), 1.0F));
+        const Floats8 root = sqrt(min(max(Floats8(1.0F) - sine, 0.0F), 1.0F));
         const Floats8 at = root * (1.0F * AngularTable::steps);
         const Floats8 whole = floor(at);
         const auto [here, next] =
@@ -132,7 +132,7 @@ void weigh_by_elevation(const SineTable& pattern, const PatchBlock& pieces, int 
         const Floats8 sine =
             Floats8::load(pieces.z.data() + k) / Floats8::load(echoes.range_m.data() + k);
         // In this order of arguments NaN becomes 0.
-        const Floats8 at = least(greatest(fma(half, sine, half), 0.0F), 1.0F * SineTable::steps);
+        const Floats8 at = min(max(fma(half, sine, half), 0.0F), 1.0F * SineTable::steps);
         const Floats8 whole = floor(at);
         const auto [here, next] = table_entries(table, to_ints(whole));
         const Floats8 power = fma(at - whole, next - here, here);
@@ -154,14 +154,14 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& s
         const Floats8 range = piece_range(read(pieces.x).v, read(pieces.y).v, read(pieces.z).v);
         const Floats8 inverse = Floats8(1.0F) / range;
         const Floats8 spreading = inverse * inverse;
-        const Floats8 sine = least(read(pieces.height_m) * inverse, 1.0F);
+        const Floats8 sine = min(read(pieces.height_m) * inverse, 1.0F);
         const Floats8 received = read(pieces.area_m2) * (spreading * spreading);
         const Floats8 loss =
             exp_neg_of_8(fms(equation.loss_per_m, range, equation.ln_headroom), min_loss);
         const Floats8 power = strengths.at(pieces.material.data() + k, sine) * loss * received;
         range.store(echoes.range_m.data() + k);
         // In this order of arguments NaN stays NaN.
-        least(max_echo, power).store(echoes.power.data() + k);
+        min(max_echo, power).store(echoes.power.data() + k);
         fms(range - equation.range_min_m, per_bin, 0.5F).store(echoes.row.data() + k);
     }
     weigh_by_elevation(equation.elevation, pieces, count, echoes);

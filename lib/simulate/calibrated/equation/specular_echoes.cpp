@@ -124,13 +124,13 @@ std::uint64_t use_block(const SonarEquation& equation, PiecesOfPaths& block, con
 /// The number of pieces of an edge, so that each is a point both at its place and at its image.
 int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath::Place::*edge,
                    const PointLimits& limits) {
-    int most = 1;
+    int patches = 1;
     for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
         const Arrival arrival = arrival_of(place->at);
-        most = std::max(most, patches_along(extents_of(place->*edge, arrival.direction),
-                                            arrival.range_m, limits));
+        patches = std::max(patches, patches_along(extents_of(place->*edge, arrival.direction),
+                                                  arrival.range_m, limits));
     }
-    return most;
+    return patches;
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
             put_place(block.images, block.count, path.image_source, s, t);
             block.path[block.count] = number;
             block.power[block.count] = power;
-            if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
+            if (++block.count == PatchBlock::capacity) outside += use_block(equation, block, use);
         });
     }
     return outside + use_block(equation, block, use);

@@ -28,12 +28,13 @@ double facets(double sine, double slope2) {
 
 /// The grazing angle in degrees at which the facets have fallen by 15 dB.
 double joint_deg(double slope2) {
-    const double least = facets(1.0, slope2) / power_of_db(15.0);
+    const double min_strength = facets(1.0, slope2) / power_of_db(15.0);
     double low = 0.0;
     double high = 90.0;
     for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (facets(std::max(sincos(radians(middle)).sin, 0.05), slope2) < least ? low : high) = middle;
+        (facets(std::max(sincos(radians(middle)).sin, 0.05), slope2) < min_strength ? low : high) =
+            middle;
     }
     return 0.5 * (low + high);
 }

@@ -112,7 +112,7 @@ void DetectedSample::apply(std::span<const float> mean, std::span<float> power) 
             (natural_log_of_8(powers / means) * log2_e - static_cast<float>(first_octave)) *
             static_cast<float>(steps_per_octave);
         // In this order of arguments NaN becomes 0.
-        const Floats8 inside = least(greatest(at, 0.0F), last_step);
+        const Floats8 inside = min(max(at, 0.0F), last_step);
         const Floats8 cell = floor(inside);
         const auto [here, next] = table_entries(value_.data(), to_ints(cell));
         const Floats8 within = means * fma(inside - cell, next - here, here);

@@ -149,19 +149,19 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
 std::vector<std::uint16_t> companded(std::span<const float> powers,
                                      const ReceiverConfig& receiver) {
     const Law law = law_of(receiver);
-    const auto greatest = static_cast<float>((1 << receiver.bits) - 1);
+    const auto max_value = static_cast<float>((1 << receiver.bits) - 1);
     const auto offset = static_cast<float>(receiver.offset);
     const auto knee = static_cast<float>(receiver.knee);
     const bool has_knee = knee < 1.0F;
-    const float most = has_knee ? max_power : 1.0F;
-    const float logarithm_of_most = has_knee ? natural_log(max_power) : 0.0F;
+    const float ceiling = has_knee ? max_power : 1.0F;
+    const float ln_max = has_knee ? natural_log(max_power) : 0.0F;
     std::vector<std::uint16_t> out(powers.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const float power = std::min(std::max(powers[i], min_power), most);
-        float value = law.value(std::min(natural_log(power), logarithm_of_most));
+        const float power = std::min(std::max(powers[i], min_power), ceiling);
+        float value = law.value(std::min(natural_log(power), ln_max));
         if (has_knee) value = compressed(value, knee);
         const float above = std::max(value - offset, 0.0F);
-        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(greatest * above + 0.5F));
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(max_value * above + 0.5F));
     }
     return out;
 }

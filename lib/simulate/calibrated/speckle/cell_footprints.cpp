@@ -17,7 +17,7 @@ constexpr float longest_on_surface = 4.0F;
 
 // Few large cells among small ones make the power uneven: from this area of a small cell on, over
 // the wanted one, all are small.
-constexpr float least_split_areas = 0.5F;
+constexpr float min_split_areas = 0.5F;
 
 template <class T>
 using Batch = CellFootprints::Array<T>;
@@ -83,7 +83,7 @@ float wanted_edge2(const ScattererCells& cells, float range, float sine) {
     const float longer2 =
         std::min(1.0F / std::max(cosine2, 1e-6F), longest_on_surface * longest_on_surface);
     const float grazing2 = cells.edge_per_root_range * cells.edge_per_root_range * range;
-    const float depth2 = cells.greatest_depth_m * cells.greatest_depth_m;
+    const float depth2 = cells.max_depth_m * cells.max_depth_m;
     const float width = cells.width_rad * range;
     // Cells that are larger because of the length are no wider than a beam.
     return std::min(std::min(grazing2 * std::sqrt(longer2), depth2 * longer2),
@@ -108,7 +108,7 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
         const std::int32_t level = ((std::bit_cast<std::int32_t>(ratio) >> 23) - 127) >> 1;
         const float split_areas = power_of_two(2 * std::min(level, top)) / ratio;
         out.level[k] = std::min(level, top);
-        out.unsplit_share[k] = level < top && split_areas < least_split_areas
+        out.unsplit_share[k] = level < top && split_areas < min_split_areas
                                    ? (4.0F / 3.0F) * (1.0F - split_areas)
                                    : 0.0F;
         out.fine_m[k] = cells.min_edge_m * power_of_two(out.level[k]);
@@ -119,7 +119,7 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
 void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor,
                          const ScattererCells& cells, CellFootprints& out) {
     const auto& [place, u, v, range, height, area, count] = surfaces;
-    const double per_least = 1.0 / cells.min_edge_m;
+    const double per_min = 1.0 / cells.min_edge_m;
     for (int k = 0; k < count; ++k) {
         const float nx = u.y[k] * v.z[k] - u.z[k] * v.y[k];
         const float ny = u.z[k] * v.x[k] - u.x[k] * v.z[k];
@@ -131,7 +131,7 @@ void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor
         out.axis[k] = axis;
         out.area_by_projected[k] = area[k] / (4.0F * along(axis, ax, ay, az));
 
-        const double per_edge = per_least * power_of_two(-out.level[k]);
+        const double per_edge = per_min * power_of_two(-out.level[k]);
         const double x = (sensor.x() + place.x[k]) * per_edge;
         const double y = (sensor.y() + place.y[k]) * per_edge;
         const double z = (sensor.z() + place.z[k]) * per_edge;
@@ -192,8 +192,8 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         const float end = std::floor(0.5F * (outer + outer_reach)) + 1.0F;
         out.row_begin[k] = static_cast<std::int32_t>(begin);
         out.row_end[k] = static_cast<std::int32_t>(any_area ? end : begin);
-        out.least[k] = std::floor(0.5F * (inner - inner_reach));
-        out.greatest[k] = std::floor(0.5F * (inner + inner_reach));
+        out.min_inner[k] = std::floor(0.5F * (inner - inner_reach));
+        out.max_inner[k] = std::floor(0.5F * (inner + inner_reach));
         // The rows follow the edge that extends further along the outer axis. This edge extends at
         // most twice as far along the inner axis.
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);

@@ -17,9 +17,9 @@ namespace sonarsim {
 /// near the sample (the base), so that floats hold them. A structure of arrays, so that loops over
 /// the samples vectorise.
 struct CellFootprints {
-    static constexpr int most = 32;
+    static constexpr int capacity = 32;
     template <class T>
-    using Array = std::array<T, most>;
+    using Array = std::array<T, capacity>;
 
     int count = 0;
     Array<std::int32_t> axis;        ///< projected along; the first and second axes follow in turn
@@ -41,7 +41,7 @@ struct CellFootprints {
     Array<std::int32_t> rows_along_first;  ///< 1: rows lie side by side along the first axis
     Array<std::int32_t> row_begin, row_end;
     Array<float> left, slope, width;
-    Array<float> least, greatest;
+    Array<float> min_inner, max_inner;
 };
 
 /// Finds the footprints of up to `most` samples in a view of this shape.

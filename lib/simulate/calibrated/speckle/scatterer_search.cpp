@@ -45,7 +45,7 @@ Floats8 place_on_line(Ints8 line, std::int32_t level, std::int32_t axis, int alo
 struct CellList {
     std::vector<std::int32_t> column, row;
     int count = 0;
-    std::array<int, CellFootprints::most + 1> begin{};  ///< the first cell of each sample
+    std::array<int, CellFootprints::capacity + 1> begin{};  ///< the first cell of each sample
 
     CellList() { grow(); }
     void grow() {
@@ -75,8 +75,8 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
         const Ints8 outer = Ints8(n) + lane_numbers();
         const Floats8 left = fma(p.slope[k], to_floats(outer), p.left[k]);
         const Floats8 right = left + p.width[k];
-        Ints8 inner = to_ints(greatest(floor(left), p.least[k]));
-        const Ints8 end = to_ints(least(floor(right), p.greatest[k])) + 1;
+        Ints8 inner = to_ints(max(floor(left), p.min_inner[k]));
+        const Ints8 end = to_ints(min(floor(right), p.max_inner[k])) + 1;
         const unsigned is_row = (Ints8(p.row_end[k]) > outer).bits();
         while (const unsigned in_row = is_row & (end > inner).bits()) {
             const Ints8 column = along_first ? outer : inner;
@@ -137,12 +137,12 @@ class Search {
 
     /// Makes room in the block for scatterers of sample k, and returns their greatest number.
     int room(int k) {
-        if (block_.pieces.count > PatchBlock::most - lanes) {
+        if (block_.pieces.count > PatchBlock::capacity - lanes) {
             runs_[run_count_++] = {k, block_.pieces.count};
             complete_runs();
             flush();
         }
-        return PatchBlock::most - block_.pieces.count;
+        return PatchBlock::capacity - block_.pieces.count;
     }
 
     void emit_coarse(int k);
@@ -167,7 +167,7 @@ class Search {
     // and numbers, from the base of the sample's footprint; and its place in the cell, in edges.
     PatchBlock::Array<float> s_{}, t_{}, size_{}, along_first_{}, along_second_{};
     PatchBlock::Array<std::int32_t> column_{}, row_{};
-    std::array<Run, CellFootprints::most> runs_{};  ///< not completed yet
+    std::array<Run, CellFootprints::capacity> runs_{};  ///< not completed yet
     int run_count_ = 0;
     int completed_ = 0;  ///< number of complete scatterers in the block
 };
@@ -269,8 +269,8 @@ void Search::complete(const Run& run) {
         (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
         // Numbers from the base become numbers of the lattice; the base is a multiple of 8.
         const Ints8 is_larger = to_ints(size) >> 1;
-        const auto number = [&](int of_axis, std::int32_t base, Ints8 from_base) {
-            (halved(base, is_larger) + from_base).store(block_.cell[of_axis].data() + k);
+        const auto number = [&](int axis, std::int32_t base, Ints8 from_base) {
+            (halved(base, is_larger) + from_base).store(block_.cell[axis].data() + k);
         };
         number(first, p.base_first[of], Ints8::load(column_.data() + k));
         number(second, p.base_second[of], Ints8::load(row_.data() + k));
@@ -294,7 +294,7 @@ void Search::complete(const Run& run) {
 void find_scatterers(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
                      const SonarInScene& sonar, PhiloxKey key, Scatterers& block,
                      const std::function<void(const Scatterers&)>& use) {
-    constexpr std::size_t batch = CellFootprints::most;
+    constexpr std::size_t batch = CellFootprints::capacity;
     Search search(key, block, use);
     for (std::size_t first = 0; first < samples.size(); first += batch)
         search.add(samples.subspan(first, std::min(batch, samples.size() - first)), first, shape,

@@ -59,20 +59,20 @@ void find_strengths(const Words& words, int count, Floats& strength) {
 
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
                                double wavelength_m) {
-    const double greatest = max_of_resolution * resolution_m;
+    const double max_edge = max_of_resolution * resolution_m;
     const double per_root_range = std::sqrt(resolution_m * width_rad / scatterers_in_cell);
-    const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
+    const double min_edge = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
     ScattererCells out;
     out.levels = 1;
-    double edge = greatest;
-    while (edge > least && out.levels < 12) {
+    double edge = max_edge;
+    while (edge > min_edge && out.levels < 12) {
         edge *= 0.5;
         ++out.levels;
     }
     out.levels += steep_levels;
     out.min_edge_m = static_cast<float>(edge);
     out.edge_per_root_range = static_cast<float>(per_root_range);
-    out.greatest_depth_m = static_cast<float>(greatest);
+    out.max_depth_m = static_cast<float>(max_edge);
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
     return out;

@@ -17,7 +17,7 @@ namespace sonarsim {
 struct ScattererCells {
     float min_edge_m = 0.0F;           ///< level 0
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
-    float greatest_depth_m = 0.0F;     ///< greatest size of a cell in range
+    float max_depth_m = 0.0F;          ///< greatest size of a cell in range
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength

@@ -95,7 +95,7 @@ Floats8 texels(Floats8 metres, const Texture::Square& square, std::uint32_t move
     const Floats8 turns =
         fma(metres, static_cast<float>(1.0 / square.edge_m()),
             static_cast<float>(moved % static_cast<std::uint32_t>(square.size)) / size);
-    return least((turns - floor(turns)) * size, size - 0.001F);
+    return min((turns - floor(turns)) * size, size - 0.001F);
 }
 
 /// The field at places, linear between texels.
@@ -123,7 +123,7 @@ void add_drawn(PowerForm form, std::span<const float> powers, float gain, int co
     const float half_gain = 0.5F * gain;
     for (int row = 0; row < count; row += drawn_together) {
         const auto power_at = [&](int at) -> Floats8 {
-            return at < count ? greatest(Floats8::load(powers.data() + at), 0.0F) : 0.0F;
+            return at < count ? max(Floats8::load(powers.data() + at), 0.0F) : 0.0F;
         };
         const std::array<Floats8, 2> power{power_at(row), power_at(row + lanes)};
         if (((power[0] != 0.0F).bits() | (power[1] != 0.0F).bits()) == 0U) continue;

@@ -20,9 +20,9 @@ enum Term : int { section, range, x, y, z, highlight };
 
 /// The number of the cell at an offset from the middle one, 21 bits. `size` 0: there is one cell.
 std::uint64_t cell_at(float offset, float size) {
-    constexpr float most = 1e5F;
+    constexpr float max_number = 1e5F;
     if (!(size > 0.0F)) return 0;
-    const float number = std::clamp(std::floor(offset / size + 0.5F), -most, most);
+    const float number = std::clamp(std::floor(offset / size + 0.5F), -max_number, max_number);
     return static_cast<std::uint64_t>(static_cast<std::int32_t>(number)) & 0x1FFFFFU;
 }
 
@@ -88,14 +88,14 @@ PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
                              const PointLimits& cell, const Scattering& scattering, PhiloxKey key) {
     PointScatterers out;
     PatchBlock block;
-    std::vector<Sums> of_surface;
+    std::vector<Sums> surface_sums;
     for (std::size_t first = 0; first < pieces.size();) {
         const auto is_other = [&](const Sample& piece) {
             return piece.instance != pieces[first].instance || piece.number != pieces[first].number;
         };
         const std::span<const Sample> rest = pieces.subspan(first);
         const auto count = std::ranges::find_if(rest, is_other) - rest.begin();
-        of_surface.clear();
+        surface_sums.clear();
         subdivide(rest.first(count), shape, cell, block, [&](const PatchBlock& parts) {
             for (int k = 0; k < parts.count; ++k) {
                 const ArrivalLane at = arrival_at(parts.x[k], parts.y[k], parts.z[k]);
@@ -106,11 +106,11 @@ PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
                 if (!(area > 0.0F)) continue;
                 const float is_bright =
                     is_in_highlight(material, at.range_m, height_m) ? 1.0F : 0.0F;
-                of_surface.emplace_back(area * Sums(1.0F, at.range_m, parts.x[k], parts.y[k],
-                                                    parts.z[k], is_bright, 0.0F, 0.0F));
+                surface_sums.emplace_back(area * Sums(1.0F, at.range_m, parts.x[k], parts.y[k],
+                                                      parts.z[k], is_bright, 0.0F, 0.0F));
             }
         });
-        if (!of_surface.empty()) join_surface(of_surface, cell, pieces[first], key, out);
+        if (!surface_sums.empty()) join_surface(surface_sums, cell, pieces[first], key, out);
         first += count;
     }
     return out;

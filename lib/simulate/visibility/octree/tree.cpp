@@ -111,13 +111,13 @@ Polygon clip(const Triangle& triangle, const Cube& cube) {
     for (int axis = 0; axis < 3; ++axis) {
         const double low = cube.min[axis];
         const double high = low + cube.edge;
-        const double least = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        const double most = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        if (least < low) {
+        const double lowest = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        const double highest = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        if (lowest < low) {
             cut(polygon, axis, low, true, next);
             std::swap(polygon, next);
         }
-        if (most >= high) {
+        if (highest >= high) {
             cut(polygon, axis, high, false, next);
             std::swap(polygon, next);
         }
@@ -250,7 +250,7 @@ void Octree::find_tiles(Node& node, Containment containment, const ViewVolume& v
     const Eigen::Vector3d middle = own.min.array() + 0.5 * own.edge;
     const Eigen::Vector3f centre = (middle - volume.position()).cast<float>();
     const auto edge = static_cast<float>(own.edge);
-    if (containment != Containment::inside) containment = volume.of_cube(centre, edge);
+    if (containment != Containment::inside) containment = volume.contains_cube(centre, edge);
     if (containment == Containment::outside) return;
     if (node.is_tile) {
         node.last_use = pings_;

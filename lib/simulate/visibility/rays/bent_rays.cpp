@@ -128,7 +128,7 @@ class BentCast {
         const Eigen::Vector3d n =
             facing * Eigen::Vector3d(normal.dot(there.along), normal.dot(there.across),
                                      normal.dot(there.port));
-        const Eigen::Vector3d seen =
+        const Eigen::Vector3d visible =
             Eigen::Vector3d(along * n.x(), across * n.y(), port * n.z()).normalized();
         const auto in_scene = [&](const Eigen::Vector3d& v) -> Eigen::Vector3f {
             return (v.x() * here.along + v.y() * here.across + v.z() * here.port).cast<float>();
@@ -136,11 +136,11 @@ class BentCast {
         const double tube = std::fabs(across * port);
         return {.facet = facet,
                 .range_m = static_cast<float>(range),
-                .normal = in_scene(seen),
-                .cosine = static_cast<float>(-seen.x()),
+                .normal = in_scene(visible),
+                .cosine = static_cast<float>(-visible.x()),
                 .tube = {.normal = in_scene(n),
                          .cosine = static_cast<float>(-n.x()),
-                         .area = static_cast<float>(tube * seen.x() / n.x()),
+                         .area = static_cast<float>(tube * visible.x() / n.x()),
                          .strength = static_cast<float>(1.0 / (tube * tube))}};
     }
 

@@ -65,9 +65,9 @@ Border border(const Context& context, const RayColumn& column, int below, int ab
     const auto range_of = [&](const CastRay* ray) {
         if (!ray || ray->missed()) return 0.0F;
         const float range = ray->range_m;
-        float most = context.sampling.tolerance_m;
-        if (out.continuous) most = both_met ? a->range_m + b->range_m : range;
-        return range_on_plane(*ray, out.direction, range, most);
+        float max_change = context.sampling.tolerance_m;
+        if (out.continuous) max_change = both_met ? a->range_m + b->range_m : range;
+        return range_on_plane(*ray, out.direction, range, max_change);
     };
     out.below_m = range_of(a);
     out.above_m = range_of(b);
@@ -79,11 +79,11 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
              const Segment& segment) {
     const SinCosFloat middle = sincos_small(0.5F * (segment.from.along + segment.to.along));
     const float about = 0.5F * (segment.from.above_m + segment.to.below_m);
-    const float most = segment.may_end_across ? context.sampling.tolerance_m : about;
+    const float max_change = segment.may_end_across ? context.sampling.tolerance_m : about;
     const Eigen::Vector3f low = direction(context.shape, sides.low, middle);
     const Eigen::Vector3f high = direction(context.shape, sides.high, middle);
     const auto onto_surface = [&](const Eigen::Vector3f& beside) -> Eigen::Vector3f {
-        return beside * range_on_plane(ray, beside, about, most);
+        return beside * range_on_plane(ray, beside, about, max_change);
     };
     // A point whose range was limited lies off the plane; multipath would start from there, so it
     // is projected back.

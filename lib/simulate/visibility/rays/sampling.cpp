@@ -27,8 +27,8 @@ Sampling sampling_for(const View& view) {
     // and the allowed range uncertainty of a gap follows its power of 3/2.
     const double scale = view.relative_l1 / 0.03;
     const double density = 1.0 / std::sqrt(scale);
-    const auto rays = [&](double count, double least) {
-        return static_cast<int>(std::clamp(std::ceil(count * density), least, 4096.0));
+    const auto rays = [&](double count, double min_count) {
+        return static_cast<int>(std::clamp(std::ceil(count * density), min_count, 4096.0));
     };
     Sampling sampling;
     switch (view.shape) {

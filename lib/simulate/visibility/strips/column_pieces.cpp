@@ -23,12 +23,12 @@ std::array<Line, 2> short_edges(const StripTriangle& t, float from, float to, fl
 }  // namespace
 
 void ColumnPieces::gather(const std::vector<StripTriangle>& triangles,
-                          std::span<const std::uint32_t> of_column, float left, float right,
+                          std::span<const std::uint32_t> column_triangles, float left, float right,
                           float to_border_w) {
     count_ = 0;
-    const std::size_t most = of_column.size() / lanes + 1;
-    if (blocks_.size() < most) blocks_.resize(most + most / 2);
-    for (const std::uint32_t index : of_column) {
+    const std::size_t blocks = column_triangles.size() / lanes + 1;
+    if (blocks_.size() < blocks) blocks_.resize(blocks + blocks / 2);
+    for (const std::uint32_t index : column_triangles) {
         if (add(triangles[index], index, left, right, to_border_w)) ++count_;
     }
     pad();
@@ -67,14 +67,16 @@ bool ColumnPieces::add(const StripTriangle& t, std::uint32_t index, float left, 
     const float w = 0.5F * (low_at(0.0F) + high_at(0.0F));
     const float q = t.q0 + t.q_u * (middle - t.u0) + t.q_w * (w - t.w0);
     const float across = t.q_u * half;
-    float least = std::min(t.q_w * (low_from - w), t.q_w * (high_from - w)) - across;
-    float most = std::max(t.q_w * (low_from - w), t.q_w * (high_from - w)) - across;
-    least = std::min(least, std::min(t.q_w * (low_to - w), t.q_w * (high_to - w)) + across);
-    most = std::max(most, std::max(t.q_w * (low_to - w), t.q_w * (high_to - w)) + across);
+    float min_offset = std::min(t.q_w * (low_from - w), t.q_w * (high_from - w)) - across;
+    float max_offset = std::max(t.q_w * (low_from - w), t.q_w * (high_from - w)) - across;
+    min_offset =
+        std::min(min_offset, std::min(t.q_w * (low_to - w), t.q_w * (high_to - w)) + across);
+    max_offset =
+        std::max(max_offset, std::max(t.q_w * (low_to - w), t.q_w * (high_to - w)) + across);
     if (corner) {
         const float at_corner = t.q_u * (t.u1 - middle) + t.q_w * (t.w1 - w);
-        least = std::min(least, at_corner);
-        most = std::max(most, at_corner);
+        min_offset = std::min(min_offset, at_corner);
+        max_offset = std::max(max_offset, at_corner);
     }
     PieceBlock& p = blocks_[count_ / lanes];
     const int k = count_ % lanes;
@@ -93,8 +95,8 @@ bool ColumnPieces::add(const StripTriangle& t, std::uint32_t index, float left, 
     p.q_u[k] = t.q_u;
     p.q_w[k] = t.q_w;
     p.w[k] = w;
-    p.q_min[k] = std::max(t.q_min, q + least);
-    p.q_max[k] = std::min(t.q_max, q + most);
+    p.q_min[k] = std::max(t.q_min, q + min_offset);
+    p.q_max[k] = std::min(t.q_max, q + max_offset);
     p.w_min[k] = w_min;
     p.w_max[k] = w_max;
     p.facet[k] = static_cast<std::int32_t>(t.facet);

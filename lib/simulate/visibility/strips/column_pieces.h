@@ -41,7 +41,7 @@ class ColumnPieces {
 
     /// `to_border_w`: the greatest |w| of the view in the column.
     void gather(const std::vector<StripTriangle>& triangles,
-                std::span<const std::uint32_t> of_column, float left, float right,
+                std::span<const std::uint32_t> column_triangles, float left, float right,
                 float to_border_w);
 
     int count() const { return count_; }

@@ -27,10 +27,10 @@ ColumnScan::ColumnScan(const ClusterMesh& mesh, const std::vector<StripTriangle>
       piece_of_(triangles.size(), 0),
       column_of_(triangles.size(), -1) {}
 
-void ColumnScan::scan(std::span<const std::uint32_t> of_column, float left, float right) {
-    if (of_column.empty()) return;
+void ColumnScan::scan(std::span<const std::uint32_t> column_triangles, float left, float right) {
+    if (column_triangles.empty()) return;
     const int column = ++column_;
-    pieces_.gather(triangles_, of_column, left, right, frame_.reach_w(left, right));
+    pieces_.gather(triangles_, column_triangles, left, right, frame_.reach_w(left, right));
     for (int i = 0; i < pieces_.count(); ++i) {
         piece_of_[pieces_.triangle(i)] = i;
         column_of_[pieces_.triangle(i)] = column;

@@ -17,7 +17,7 @@ class ColumnScan {
 
     /// Adds the samples of a column between two u, from its triangles. Columns are scanned once
     /// each.
-    void scan(std::span<const std::uint32_t> of_column, float left, float right);
+    void scan(std::span<const std::uint32_t> column_triangles, float left, float right);
 
   private:
     void add_piece(int i);

@@ -114,9 +114,9 @@ bool PieceVisibility::take_away(const Candidate& candidate) {
         return fma(load(slope), d, load(w));
     };
     const Floats8 low =
-        greatest(greatest(line(b.low_a, b.low_a_slope), line(b.low_b, b.low_b_slope)), rest_.low);
+        max(max(line(b.low_a, b.low_a_slope), line(b.low_b, b.low_b_slope)), rest_.low);
     const Floats8 high =
-        least(least(line(b.high_a, b.high_a_slope), line(b.high_b, b.high_b_slope)), rest_.high);
+        min(min(line(b.high_a, b.high_a_slope), line(b.high_b, b.high_b_slope)), rest_.high);
     const unsigned meets =
         ((load(b.from) <= u) & (load(b.to) > u) & (high - low > Floats8(overlap_share * eps_)))
             .bits() &

@@ -56,14 +56,14 @@ struct ColumnFrame {
     /// True only if an interval of w lies in the view over an interval of u.
     bool surely_sees(float from, float to, float low, float high) const {
         if (border != Border::circle) return low >= tan_low && high <= tan_high;
-        const float most_u = std::max(std::fabs(from), std::fabs(to));
-        const float most_w = std::max(std::fabs(low), std::fabs(high));
-        return most_u * most_u + most_w * most_w <= tan_high * tan_high;
+        const float max_u = std::max(std::fabs(from), std::fabs(to));
+        const float max_w = std::max(std::fabs(low), std::fabs(high));
+        return max_u * max_u + max_w * max_w <= tan_high * tan_high;
     }
     /// The greatest |w| in the view over an interval of u.
     float reach_w(float from, float to) const {
-        const float most = std::max(std::fabs(from), std::fabs(to));
-        const float secant = border == Border::parallels ? std::sqrt(1.0F + most * most) : 1.0F;
+        const float max_u = std::max(std::fabs(from), std::fabs(to));
+        const float secant = border == Border::parallels ? std::sqrt(1.0F + max_u * max_u) : 1.0F;
         return secant * std::max(std::fabs(tan_low), std::fabs(tan_high));
     }
 };

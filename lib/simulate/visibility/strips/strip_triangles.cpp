@@ -47,9 +47,9 @@ class ColumnFinder {
 
     /// The column whose half-open interval holds u, or the nearest one.
     int operator()(float u) const {
-        const float most = static_cast<float>(table_.size() - 1);
+        const float last_entry = static_cast<float>(table_.size() - 1);
         int column =
-            table_[static_cast<int>(std::clamp((u - borders_.front()) * per_u_, 0.0F, most))];
+            table_[static_cast<int>(std::clamp((u - borders_.front()) * per_u_, 0.0F, last_entry))];
         while (column > 0 && borders_[column] > u)
             --column;
         while (column < last() && borders_[column + 1] <= u)
@@ -143,14 +143,14 @@ class TriangleProjection {
     void add_clipped(const std::array<Vector3f, 3>& triangle, std::uint32_t facet) {
         std::array<Vector3f, 8> corners{triangle[0], triangle[1], triangle[2]};
         int count = 3;
-        const auto clip = [&](const Vector3f& normal, float least) {
+        const auto clip = [&](const Vector3f& normal, float offset) {
             std::array<Vector3f, 8> kept;
             int left = 0;
             for (int i = 0; i < count; ++i) {
                 const Vector3f& a = corners[i];
                 const Vector3f& b = corners[(i + 1) % count];
-                const float at_a = normal.dot(a) - least;
-                const float at_b = normal.dot(b) - least;
+                const float at_a = normal.dot(a) - offset;
+                const float at_b = normal.dot(b) - offset;
                 if (at_a >= 0.0F) kept[left++] = a;
                 if ((at_a >= 0.0F) != (at_b >= 0.0F))
                     kept[left++] = a + at_a / (at_a - at_b) * (b - a);

@@ -49,9 +49,9 @@ void add_wake(const Wake& wake, SampleKind kind, const VisibilityEngine& engine,
             }
         }
     }
-    const std::vector<bool> seen = engine.seen(T_world_sensor, sights);
+    const std::vector<bool> visible = engine.visible(T_world_sensor, sights);
     for (std::size_t k = 0; k < own.size(); ++k) {
-        if (seen[k]) samples.items.push_back(own[k]);
+        if (visible[k]) samples.items.push_back(own[k]);
     }
     for (Sample& sample : samples.items) {
         const Eigen::Vector3d place = T_world_sensor.rotation * sample.position.cast<double>();
