@@ -24,14 +24,14 @@ constexpr float crossing_share = 0.7F;
 // Lengths that differ by less than this share are equal.
 constexpr float same_length = 1e-3F;
 
-constexpr float least_length = 1e-30F;
+constexpr float min_length = 1e-30F;
 
 // A sample is at most so long, so that what is looked up at its middle holds for all of it.
 constexpr float max_sample_bins = 24.0F;
 
 /// The number of parts of a line whose range bends by `sag_m`.
-float parts_by_sag(float sag_m, float most_m) {
-    return sag_m > most_m ? std::ceil(std::sqrt(sag_m / most_m)) : 1.0F;
+float parts_by_sag(float sag_m, float max_sag_m) {
+    return sag_m > max_sag_m ? std::ceil(std::sqrt(sag_m / max_sag_m)) : 1.0F;
 }
 
 }  // namespace
@@ -78,15 +78,15 @@ void StripSamples::add(const Strip& strip) {
         float low = v.low + v.low_slope * (u - strip.middle);
         float high = v.high + v.high_slope * (u - strip.middle);
         if (!strip.small) {
-            float least = pieces_.low(strip.piece, u).w;
-            float most = pieces_.high(strip.piece, u).w;
-            if (!frame_.surely_sees(u, u, least, most)) {
+            float min_w = pieces_.low(strip.piece, u).w;
+            float max_w = pieces_.high(strip.piece, u).w;
+            if (!frame_.surely_sees(u, u, min_w, max_w)) {
                 const ColumnLimits view = frame_.limits_at(u);
-                least = std::max(least, view.low);
-                most = std::min(most, view.high);
+                min_w = std::max(min_w, view.low);
+                max_w = std::min(max_w, view.high);
             }
-            low = std::max(least, std::min(most, low));
-            high = std::max(least, std::min(most, high));
+            low = std::max(min_w, std::min(max_w, low));
+            high = std::max(min_w, std::min(max_w, high));
         }
         if (high < low) low = high = 0.5F * (low + high);
         return std::pair(low, high);
@@ -135,8 +135,7 @@ int StripSamples::parts_across(const Quad& quad, const Ranges& r) const {
     if (across > taper_bins * rule_.bin_m) {
         const float a = (quad.near_high - quad.near_low).norm();
         const float b = (quad.far_high - quad.far_low).norm();
-        parts =
-            std::max(parts, std::ceil(std::fabs(b - a) / ((a + b + least_length) * rule_.taper)));
+        parts = std::max(parts, std::ceil(std::fabs(b - a) / ((a + b + min_length) * rule_.taper)));
     }
     if (across > 0.5F * rule_.bin_m) {
         const Vector3f middle =
@@ -146,11 +145,26 @@ int StripSamples::parts_across(const Quad& quad, const Ranges& r) const {
     return static_cast<int>(std::min(parts, max_parts_across));
 }
 
+/// At most the distance of a quadrilateral: that of its sides, less half of its greater width.
+float StripSamples::distance_bound(const Quad& quad) {
+    const auto distance = [](const Vector3f& from, const Vector3f& to) {
+        const Vector3f along = to - from;
+        const float at = -from.dot(along) / (along.squaredNorm() + min_length);
+        return (from + std::clamp(at, 0.0F, 1.0F) * along).norm();
+    };
+    const float width2 = std::max((quad.far_low - quad.near_low).squaredNorm(),
+                                  (quad.far_high - quad.near_high).squaredNorm());
+    return std::min(distance(quad.near_low, quad.near_high),
+                    distance(quad.far_low, quad.far_high)) -
+           0.5F * std::sqrt(width2);
+}
+
 void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, bool small) {
     const Ranges r{quad.near_low.norm(), quad.near_high.norm(), quad.far_low.norm(),
                    quad.far_high.norm()};
     const float nearest = std::min({r.near_low, r.near_high, r.far_low, r.far_high});
-    if (nearest - 2.0F * rule_.bin_m > rule_.range_max_m) return;
+    const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
+    if (nearest > end && distance_bound(quad) > end) return;
     const int parts = small ? 1 : parts_across(quad, r);
     // The range of an edge of length l bends by at most l^2 / (8 r).
     const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
@@ -167,8 +181,7 @@ void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, boo
     for (int k = 0; k < parts; ++k) {
         const float from = static_cast<float>(k) / static_cast<float>(parts);
         const float to = static_cast<float>(k + 1) / static_cast<float>(parts);
-        const float share =
-            (to - from) * (2.0F * a + (b - a) * (from + to)) / (a + b + least_length);
+        const float share = (to - from) * (2.0F * a + (b - a) * (from + to)) / (a + b + min_length);
         cut_along(triangle,
                   {quad.near_low + from * low, quad.near_high + from * high,
                    quad.near_low + to * low, quad.near_high + to * high, quad.area_m2 * share},
@@ -188,30 +201,33 @@ int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_wi
     float parts = parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
     const float depth = std::fabs(r_high - r_low);
     parts = std::max(parts, std::ceil(depth / (max_sample_bins * rule_.bin_m)));
-    const float sine = low.cross(high).norm() / (r_low * r_high + least_length);
+    const float sine = low.cross(high).norm() / (r_low * r_high + min_length);
     parts = std::max(parts, std::ceil(sine / rule_.along_rad));
     if (depth > taper_bins * rule_.bin_m)
         parts = std::max(parts, std::ceil(std::fabs(high_width - low_width) /
-                                          ((low_width + high_width + least_length) * rule_.taper)));
+                                          ((low_width + high_width + min_length) * rule_.taper)));
     return static_cast<int>(std::min(parts, max_parts_along));
 }
 
-/// The part of a quadrilateral within the range, by ranges that are even along its sides.
+/// The part of a quadrilateral within the range: its middle line is cut where it leaves the ball.
+/// If it lies out of range, the area is 0.
 StripSamples::Quad StripSamples::within_range(const Quad& quad) const {
     const Vector3f low = 0.5F * (quad.near_low + quad.far_low);
     const Vector3f high = 0.5F * (quad.near_high + quad.far_high);
     const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
-    const float r_low = low.norm();
-    const float r_high = high.norm();
-    if (std::max(r_low, r_high) <= end || std::min(r_low, r_high) >= end) return quad;
-    const float cut = (end - r_low) / (r_high - r_low);
-    const float from = r_low > end ? cut : 0.0F;
-    const float to = r_low > end ? 1.0F : cut;
+    if (std::max(low.squaredNorm(), high.squaredNorm()) <= end * end) return quad;
     const Vector3f along = high - low;
+    const float length2 = along.squaredNorm();
+    const float middle = -low.dot(along);
+    const float root2 = middle * middle - length2 * (low.squaredNorm() - end * end);
+    const float root = std::sqrt(std::max(root2, 0.0F));
+    const float from = std::max((middle - root) / length2, 0.0F);
+    const float to = std::min((middle + root) / length2, 1.0F);
+    if (!(to > from)) return {};
     const float low_width = (quad.far_low - quad.near_low).cross(along).norm();
     const float high_width = (quad.far_high - quad.near_high).cross(along).norm();
     const float share = (to - from) * (2.0F * low_width + (high_width - low_width) * (from + to)) /
-                        (low_width + high_width + least_length);
+                        (low_width + high_width + min_length);
     const Vector3f near = quad.near_high - quad.near_low;
     const Vector3f far = quad.far_high - quad.far_low;
     return {quad.near_low + from * near, quad.near_low + to * near, quad.far_low + from * far,
@@ -222,6 +238,7 @@ StripSamples::Quad StripSamples::within_range(const Quad& quad) const {
 /// similar widths.
 void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, bool one_part) {
     const Quad quad = within_range(whole);
+    if (!(quad.area_m2 > 0.0F)) return;
     float low_width = 1.0F;
     float high_width = 1.0F;
     const int count = one_part ? 1 : parts_along(quad, low_width, high_width);
@@ -231,7 +248,7 @@ void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, b
     const float near_length = (quad.near_high - quad.near_low).norm();
     const float far_length = (quad.far_high - quad.far_low).norm();
     const float shift =
-        (far_length - near_length) / (3.0F * (near_length + far_length) + least_length);
+        (far_length - near_length) / (3.0F * (near_length + far_length) + min_length);
     const Vector3f low = R_sensor_frame_ * (0.5F * (quad.near_low + quad.far_low));
     const Vector3f along = R_sensor_frame_ * (0.5F * (quad.near_high + quad.far_high)) - low;
     const Vector3f low_half = R_sensor_frame_ * (0.5F * (quad.far_low - quad.near_low));

@@ -46,6 +46,7 @@ class StripSamples {
 
     std::pair<float, float> ends(const Strip& strip) const;
     Eigen::Vector3f point(const Strip& strip, float u, float w) const;
+    static float distance_bound(const Quad& quad);
     void add_quad(const StripTriangle& triangle, const Quad& quad, bool small);
     int parts_across(const Quad& quad, const Ranges& range) const;
     int parts_along(const Quad& quad, float& low_width, float& high_width) const;
