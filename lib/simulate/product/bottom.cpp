@@ -16,27 +16,25 @@ class SmoothedColumn {
             mean_[i] = (at(i - 1) + at(i) + at(i + 1)) / 3.0F;
     }
 
-    /// The level that the share `brighter` of the running mean exceeds; the maximum if it is 0.
-    float level(double brighter) const {
+    /// The value that the share `above` of the running mean exceeds; the maximum if it is 0.
+    float level(double above) const {
         std::vector<float> sorted = mean_;
-        const auto level = sorted.end() - 1 - static_cast<int>(brighter * (size() - 1));
+        const auto level = sorted.end() - 1 - static_cast<int>(above * (size() - 1));
         std::nth_element(sorted.begin(), level, sorted.end());
-        return *level > 0.0F ? *level : max_level(size());
+        return *level > 0.0F ? *level : *std::max_element(mean_.begin(), mean_.end());
     }
 
-    /// The greatest running mean of the first bins.
-    float max_level(int bins) const {
-        return bins > 0 ? *std::max_element(mean_.begin(), mean_.begin() + bins) : 0.0F;
-    }
+    float operator[](int i) const { return mean_[i]; }
 
-    /// The first bin that reaches a threshold, which some running mean reaches.
-    int edge(float threshold) const {
-        int i = 0;
-        while (mean_[i] < threshold)
+    /// The first bin from `begin` on that reaches a threshold, which some running mean there
+    /// reaches.
+    int edge(float threshold, int begin = 0) const {
+        int i = begin;
+        while (i < size() && mean_[i] < threshold)
             ++i;
         // The running mean rises one bin before the edge of a short echo.
         int edge = std::max(i - 1, 0);
-        while (at(edge) < threshold)
+        while (edge + 1 < size() && at(edge) < threshold)
             ++edge;
         return edge;
     }
@@ -49,27 +47,87 @@ class SmoothedColumn {
     std::vector<float> mean_;
 };
 
+/// Logarithms of a column's running mean: their mean and variance over any bins.
+class Logarithms {
+  public:
+    Logarithms(const SmoothedColumn& column, int bins, float floor)
+        : sum_(bins + 1), sum2_(bins + 1) {
+        std::vector<double> steps;
+        for (int i = 0; i < bins; ++i) {
+            const double x = std::log(static_cast<double>(std::max(column[i], floor)));
+            sum_[i + 1] = sum_[i] + x;
+            sum2_[i + 1] = sum2_[i] + x * x;
+            if (i >= independent)
+                steps.push_back(std::fabs(x - (sum_[i - 2] - sum_[i - independent])));
+        }
+        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+        std::nth_element(steps.begin(), middle, steps.end());
+        // 0.6745 deviations are the median of |x| of a normal distribution.
+        usual_ = *middle / (0.6745 * std::sqrt(2.0));
+    }
+
+    double mean(int from, int to) const { return (sum_[to] - sum_[from]) / (to - from); }
+
+    /// The rise from the `window` bins before bin i to those from it on, in deviations of chance.
+    double rise(int i, int window) const {
+        const int from = std::max(i - window, 0);
+        const int to = std::min(i + window, static_cast<int>(sum_.size()) - 1);
+        const double before = mean(from, i);
+        const double after = mean(i, to);
+        const double rest =
+            sum2_[to] - sum2_[from] - (i - from) * before * before - (to - i) * after * after;
+        const double own = std::sqrt(std::max(rest, 0.0) / (to - from - 2));
+        const double chance =
+            std::max(usual_, own) * std::sqrt(independent * (1.0 / (i - from) + 1.0 / (to - i)));
+        return (after - before) / std::max(chance, min_rise / min_deviations);
+    }
+
+    static constexpr double min_deviations = 5.0;
+
+  private:
+    static constexpr int independent = 3;       // bins of a running mean over three
+    static constexpr double min_rise = 0.6931;  // to twice the value
+
+    std::vector<double> sum_, sum2_;
+    double usual_;
+};
+
 }  // namespace
 
-std::optional<int> first_return(std::span<const float> column, double brighter) {
+std::optional<int> first_return(std::span<const float> column) {
     if (column.empty()) return std::nullopt;
     const SmoothedColumn smoothed(column);
-    const float half = 0.5F * smoothed.level(brighter);
+    const float half = 0.5F * smoothed.level(0.0);
     if (!(half > 0.0F)) return std::nullopt;
     return smoothed.edge(half);
 }
 
 std::optional<int> first_return_of_swath(std::span<const float> column) {
-    constexpr double brighter = 0.1;
-    constexpr float faintest = 1e-3F;  // 30 dB below the level of the bottom
-    constexpr float clear = 0.1F;      // a lower threshold than half pays only far above the water
-    const std::optional<int> half_way = first_return(column, brighter);
-    if (!half_way) return std::nullopt;
+    constexpr float min_share = 1e-3F;  // of the level of the bottom
+    const int bins = static_cast<int>(column.size());
+    int window = std::max(8, bins / 64);
+    if (bins < window) return std::nullopt;
     const SmoothedColumn smoothed(column);
-    const float bottom = smoothed.level(brighter);
-    const float water = smoothed.max_level(2 * *half_way / 3);
-    const float between = std::max(std::sqrt(water * bottom), faintest * bottom);
-    return between < clear * bottom ? smoothed.edge(between) : *half_way;
+    const float floor = min_share * smoothed.level(0.1);
+    if (!(floor > 0.0F)) return std::nullopt;
+    const Logarithms logarithms(smoothed, bins, floor);
+    const auto is_bottom = [&](int i, int bins_each) {
+        return logarithms.rise(i, bins_each) >= Logarithms::min_deviations;
+    };
+    // The wider windows find a bottom behind a thing just above it.
+    int first = window / 2;
+    while (first < bins && !is_bottom(first, window) &&
+           (first < 2 * window || !is_bottom(first, 2 * window)))
+        ++first;
+    if (first == bins) return std::nullopt;
+    if (!is_bottom(first, window)) window *= 2;
+    int steepest = first;
+    for (int i = first + 1; i < std::min(first + window, bins); ++i) {
+        if (logarithms.rise(i, window) > logarithms.rise(steepest, window)) steepest = i;
+    }
+    const double middle = 0.5 * (logarithms.mean(std::max(steepest - window, 0), steepest) +
+                                 logarithms.mean(steepest, std::min(steepest + window, bins)));
+    return smoothed.edge(static_cast<float>(std::exp(middle)), std::max(steepest - window / 2, 0));
 }
 
 }  // namespace sonarsim

@@ -23,7 +23,7 @@ int pixels_per_bin(int min_pixels, int bins) {
 }  // namespace
 
 std::optional<double> detected_depth(const Sonar& sonar, const Ping& ping) {
-    const std::optional<int> bin = first_return(ping.intensity, 0.0);
+    const std::optional<int> bin = first_return(ping.intensity);
     if (!bin) return std::nullopt;
     return 0.5 * (sonar.range_edges_m[*bin] + sonar.range_edges_m[*bin + 1]);
 }
