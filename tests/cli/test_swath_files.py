@@ -47,8 +47,8 @@ def read_xtf(data):
         pings.append(ping)
         at += size
     assert at == len(data)
-    return [(data[at], struct.unpack_from("<H", data, at + 6)[0], data[at + 12:at + 28].rstrip(b"\0"))
-            for at in (256, 384)], pings
+    return [(data[at], struct.unpack_from("<H", data, at + 6)[0], data[at + 12:at + 28].rstrip(b"\0"),
+             *struct.unpack_from("<4f", data, at + 32)) for at in (256, 384)], pings
 
 
 class SwathFiles(Sandbox):
@@ -62,7 +62,7 @@ class SwathFiles(Sandbox):
 
     def test_xtf(self):
         channels, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
-        self.assertEqual(channels, [(1, 2, b"Port"), (2, 2, b"Starboard")])
+        self.assertEqual(channels, [(1, 2, b"Port", 0, 1, 0, 85), (2, 2, b"Starboard", 0, 1, 0, 85)])
         self.assertEqual(len(pings), 81)
         for k, ping in enumerate(pings):
             self.assertEqual(ping["number"], k)
@@ -85,6 +85,14 @@ class SwathFiles(Sandbox):
         port, starboard = (side[-1] for side in pings[44]["sides"])
         self.assertAlmostEqual((starboard.index(max(starboard)) + 0.5) * 0.1, math.hypot(11.5, 9), delta=1.0)
         self.assertGreater(max(starboard), 3 * max(port))
+
+    def test_xtf_of_an_instrument(self):
+        """The header has frequency in kHz, beamwidth along track, tilt and beamwidth across track."""
+        self.edit("mission.yaml", "kind: sidescan,", "kind: sidescan, model: calibrated, instrument: "
+                  "{frequency_hz: 450000, beam: {width_deg: 0.5, tilt_deg: 25, across_width_deg: 40}},")
+        self.assert_renders("--overwrite", "--set", "trajectory.rate_hz=0.2")
+        channels, _ = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
+        self.assertEqual([channel[3:] for channel in channels], 2 * [(450, 0.5, 25, 40)])
 
     def test_xtf_of_a_turned_mount(self):
         """The channels are port and starboard of the heading, that of the sonar: the block is to port of one that

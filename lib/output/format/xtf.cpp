@@ -41,8 +41,10 @@ void put_channel(std::string& header, std::uint8_t type, const XtfFile& file) {
     put<std::uint16_t>(header, at + 4, 1);  // unipolar
     put<std::uint16_t>(header, at + 6, 2);  // bytes per sample
     put_text(header, at + 12, port ? "Port" : "Starboard", 16);
-    put(header, at + 36, file.azimuth_deg / 2.0F);
-    put(header, at + 44, file.beam_width_deg);
+    put(header, at + 32, file.frequency_khz);
+    put(header, at + 36, file.beam_width_deg);
+    put(header, at + 40, file.tilt_deg);
+    put(header, at + 44, file.across_width_deg);
     put<std::uint8_t>(header, at + 74, two_byte_integer);
 }
 
@@ -86,7 +88,8 @@ std::string xtf_header(const XtfFile& file) {
     return header;
 }
 
-std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row) {
+std::string xtf_record(const XtfFile& file, const XtfPing& ping,
+                       std::span<const std::uint16_t> row) {
     const std::size_t bytes = ping_header_bytes + 2 * channel_header_bytes + row.size_bytes();
     std::string record((bytes + record_unit - 1) / record_unit * record_unit, '\0');
     put<std::uint16_t>(record, 0, 0xFACE);
@@ -118,6 +121,7 @@ std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row) 
                                               ping.altitude_m * ping.altitude_m)));
         put_float(record, at + 16, 2.0 * ping.range_max_m / ping.sound_speed_m_s);
         put_float(record, at + 20, ping.seconds_per_ping);
+        put(record, at + 26, static_cast<std::uint16_t>(std::lround(file.frequency_khz)));
         put(record, at + 42, static_cast<std::uint32_t>(samples));
         at += channel_header_bytes;
         std::memcpy(&record[at], row.data() + channel * samples, 2 * samples);

@@ -11,8 +11,10 @@ namespace sonarsim {
 
 struct XtfFile {
     std::string sonar_name;
-    float azimuth_deg = 0.0F;     ///< full angle of the swath
-    float beam_width_deg = 0.0F;  ///< beamwidth along track
+    float frequency_khz = 0.0F;     ///< 0: unknown
+    float beam_width_deg = 0.0F;    ///< beamwidth along track
+    float across_width_deg = 0.0F;  ///< beamwidth of a side across track
+    float tilt_deg = 0.0F;          ///< depression of a side's axis
 };
 
 /// A ping and the sonar's pose. The world's frame is the grid: x east, y north.
@@ -36,6 +38,7 @@ std::string xtf_header(const XtfFile& file);
 
 /// The record of one ping. `row` holds port from range_max to nadir, then starboard from nadir on.
 /// The port channel keeps that order, as is usual in XTF: its last sample is at nadir.
-std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row);
+std::string xtf_record(const XtfFile& file, const XtfPing& ping,
+                       std::span<const std::uint16_t> row);
 
 }  // namespace sonarsim

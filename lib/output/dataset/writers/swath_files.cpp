@@ -72,15 +72,29 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
                 next < trajectory.size() ? trajectory[next].t_s - trajectory[row.pose].t_s : 0.0};
 }
 
+/// The sonar as an XTF file describes it. In the paper's model a side receives all of its sector.
+XtfFile xtf_file(const SonarConfig& config) {
+    XtfFile file{.sonar_name = config.name,
+                 .beam_width_deg = static_cast<float>(config.elevation_deg),
+                 .across_width_deg = static_cast<float>(config.azimuth_deg / 2.0)};
+    if (config.model == ModelKind::calibrated) {
+        const BeamConfig& beam = config.instrument.beam;
+        file.frequency_khz = static_cast<float>(config.instrument.frequency_hz / 1000.0);
+        file.beam_width_deg = static_cast<float>(beam.width_deg);
+        file.across_width_deg = static_cast<float>(beam.across_width_deg);
+        file.tilt_deg = static_cast<float>(beam.tilt_deg);
+    }
+    return file;
+}
+
 void write_xtf(const WriterContext& context, const RecordFile& rows,
                const std::filesystem::path& folder) {
-    const SonarConfig& config = context.sonar().config;
+    const XtfFile sonar = xtf_file(context.sonar().config);
     StreamedFile file(folder / "waterfall.xtf");
-    file.append(xtf_header({.sonar_name = config.name,
-                            .azimuth_deg = static_cast<float>(config.azimuth_deg),
-                            .beam_width_deg = static_cast<float>(config.elevation_deg)}));
+    file.append(xtf_header(sonar));
     for_each_row(context, rows, [&](const RecordedRow& row) {
-        file.append(xtf_record(xtf_ping(context, row), grey_16(row.values, context.full_scale())));
+        file.append(
+            xtf_record(sonar, xtf_ping(context, row), grey_16(row.values, context.full_scale())));
     });
     file.finish();
 }
