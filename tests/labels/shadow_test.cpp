@@ -164,3 +164,48 @@ TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") 
         }
     }
 }
+
+TEST_CASE("side-scan labels: a bin is in shadow where its echo falls by 10 dB") {
+    // As above, with plates of drawn widths and places along the track: of many the borders of the
+    // main lobe receive floor beside the shadow. Ratios within 1 dB of the limit are left out.
+    SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
+    config.name = "sss";
+    config.range_max_m = 12.0;
+    config.range_bins = 240;
+    config.elevation_deg = 8.0;
+    config.instrument.beam.width_deg = 1.5;
+    Sonar sonar = make_sonar(config, {0.01});
+    sonar.T_vehicle_sensor = Pose{};
+    Scene open_floor = empty_scene();
+    const std::uint32_t m = add_material(open_floor, 0.4F);
+    add_quad(open_floor, {3, -30, -30}, {3, 30, -30}, {3, 30, 30}, {3, -30, 30}, m);
+    const Labelled open = label(open_floor, sonar, Pose{}, EngineKind::strips);
+    Uniform draw(4);
+    int dark = 0, bright = 0, wrong = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        Scene scene = open_floor;
+        const float half = draw.single(0.02, 0.3);
+        const float z = draw.single(-0.3, 0.3);
+        add_quad(scene, {2, 6, z - half}, {3, 6, z - half}, {3, 6, z + half}, {2, 6, z + half}, m);
+        const auto engine = make_engine(scene, {});
+        const TracedPing traced = trace(sonar, scene, *engine, Pose{}, 0);
+        SceneObjects objects = group_objects(scene, {});
+        objects.background.assign(objects.classes.size(), 0);
+        objects.background[objects.class_of(objects.object_of(scene.triangle_instance[0]))] = 1;
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, scene, objects, *engine, everything);
+        const Ping clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
+        constexpr int port = 1;
+        for (int i = bin_at(sonar, std::sqrt(45.0)) + 2; i < bin_at(sonar, std::sqrt(90.0)) - 1;
+             ++i) {
+            const float ratio = clean.at(i, port) / open.clean.at(i, port);
+            if (ratio > 0.08F && ratio < 0.125F) continue;
+            ++(ratio < 0.1F ? dark : bright);
+            wrong += (labels.shadow[open.at(i, port)] > 0) != (ratio < 0.1F);
+        }
+    }
+    CAPTURE_ALL(dark, bright, wrong);
+    CHECK(dark > 400);
+    CHECK(bright > 400);
+    CHECK(wrong <= (dark + bright) / 100);
+}

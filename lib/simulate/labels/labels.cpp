@@ -58,6 +58,17 @@ class SurfaceSums {
     const EchoSums& sums() const { return sums_; }
     const std::map<Surface, std::uint32_t>& sources() const { return source_of_; }
 
+    /// The sources of background's direct echoes; of all direct echoes if there is none.
+    std::vector<std::uint32_t> ground() const {
+        std::vector<std::uint32_t> ground, all;
+        for (const auto& [surface, source] : source_of_) {
+            if (surface.multipath) continue;
+            all.push_back(source);
+            if (objects_.is_background(surface.object)) ground.push_back(source);
+        }
+        return ground.empty() ? all : ground;
+    }
+
     /// `key_of(surface)`: what its echoes count for.
     template <class KeyOf>
     TopTwoFinder finder_by(KeyOf key_of) const {
@@ -182,7 +193,7 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
 /// request needs them, from one trace of the hidden surface. `sums`: the echoes of the ping.
 void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const View& view,
                    const Scene& scene, const SceneObjects& objects, const VisibilityEngine& engine,
-                   const LabelRequest& request, const EchoSums& sums, PingLabels& labels) {
+                   const LabelRequest& request, const SurfaceSums& surfaces, PingLabels& labels) {
     if (!request.shadow && !request.annotations) return;
     const RangeBins bins = range_bins(view);
     const bool is_bent = scene.sound_profile || !traced.motion.is_still();
@@ -194,10 +205,20 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
         find_hidden_surface(traced, echoes, view, objects, engine, directions,
                             request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
     ShadowFinder all_finder(hidden.pieces, view);
+    const bool is_wide = view.energies_add && !echoes.cones.exist();
+    std::vector<std::uint8_t> hidden_by_all;
+    if (is_wide || request.shadow) hidden_by_all = hidden_bins(hidden.pieces, bins, view.beams);
     const auto find = [&](ShadowFinder& finder, std::vector<std::uint8_t> covered,
                           std::vector<std::uint16_t>& shadow) {
-        for (int j = 0; j < view.beams; ++j)
-            finder.find(j, own(covered, labels, j), sums.occupied(j), own(shadow, labels, j));
+        for (int j = 0; j < view.beams; ++j) {
+            std::vector<std::uint8_t> above;
+            if (is_wide) {
+                above = bins_above_shadow(surfaces.sums(), j, surfaces.ground(),
+                                          own(hidden_by_all, labels, j));
+            }
+            finder.find(j, own(covered, labels, j), is_wide ? above : surfaces.sums().occupied(j),
+                        own(shadow, labels, j));
+        }
     };
     if (request.shadow) {
         const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
@@ -205,7 +226,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
              by_triangles
                  ? covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
                                 traced.T_world_sensor, engine.body_poses())
-                 : hidden_bins(hidden.pieces, bins, view.beams),
+                 : hidden_by_all,
              labels.shadow);
     }
     if (request.annotations) {
@@ -237,7 +258,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                                         .objects = request.only_objects ? &objects : nullptr},
                                        [&](const EchoBlock& block) { surfaces.add(block); });
     label_surfaces(surfaces, objects, scene.materials, request, labels);
-    label_shadows(traced, echoes, view, scene, objects, engine, request, surfaces.sums(), labels);
+    label_shadows(traced, echoes, view, scene, objects, engine, request, surfaces, labels);
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,
                                 view.shape};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sonarsim {
 
@@ -110,6 +111,49 @@ void ShadowFinder::find(int j, std::span<const std::uint8_t> covered,
     // The nearest owners are needed only where no line ends in a dark bin.
     if (!name_dark_bins(covered, occupied, owners(j), shadow))
         name_dark_bins(covered, occupied, nearest_owners(j), shadow);
+}
+
+std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
+                                            std::span<const std::uint32_t> ground,
+                                            std::span<const std::uint8_t> hidden) {
+    constexpr std::ptrdiff_t nearest = 16;
+    constexpr float shadow_below = 0.1F;
+    const std::span<const std::uint8_t> occupied = sums.occupied(beam);
+    std::vector<std::uint8_t> out(occupied.begin(), occupied.end());
+    std::vector<float> echoes(hidden.size());
+    std::vector<float> levels(hidden.size());
+    for (std::uint32_t source = 0; source < sums.sources(); ++source)
+        sums.add_to(source, beam, echoes);
+    for (const std::uint32_t source : ground)
+        sums.add_to(source, beam, levels);
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (hidden[i] == 0 && levels[i] > 0.0F) open.push_back(i);
+    }
+    // The logarithm of the median of some open bins, and the middle of their numbers.
+    const auto level = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
+        std::vector<float> values;
+        for (std::ptrdiff_t k = from; k < to; ++k)
+            values.push_back(levels[open[static_cast<std::size_t>(k)]]);
+        const auto middle = values.begin() + (to - from) / 2;
+        std::nth_element(values.begin(), middle, values.end());
+        return std::pair(std::log(*middle),
+                         static_cast<float>(open[static_cast<std::size_t>(from + to) / 2]));
+    };
+    for (std::size_t i = 0; i < out.size() && !open.empty(); ++i) {
+        if (occupied[i] == 0 || hidden[i] == 0) continue;
+        const std::ptrdiff_t at = std::ranges::lower_bound(open, i) - open.begin();
+        const bool is_last = at == std::ssize(open);
+        const auto [before, left] = at == 0 ? level(at, std::min(nearest, std::ssize(open)))
+                                            : level(std::max<std::ptrdiff_t>(at - nearest, 0), at);
+        const auto [after, right] = is_last ? std::pair(before, left + 1.0F)
+                                            : level(at, std::min(at + nearest, std::ssize(open)));
+        const float share =
+            right > left ? std::clamp((static_cast<float>(i) - left) / (right - left), 0.0F, 1.0F)
+                         : 0.0F;
+        out[i] = echoes[i] >= shadow_below * std::exp(std::lerp(before, after, share)) ? 1 : 0;
+    }
+    return out;
 }
 
 }  // namespace sonarsim

@@ -36,4 +36,12 @@ class ShadowFinder {
     std::vector<std::vector<std::uint16_t>> owners_;
 };
 
+/// 1 for the bins of a beam that show surface, where echoes are energies and a beam is wider than
+/// the shadow of a small thing, so that its borders receive some surface beside the shadow. A bin
+/// with hidden surface (`hidden` is 1) shows none if its echo is 10 dB below the level of the
+/// sources `ground`, between the medians of the nearest bins without hidden surface on either side.
+std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
+                                            std::span<const std::uint32_t> ground,
+                                            std::span<const std::uint8_t> hidden);
+
 }  // namespace sonarsim
