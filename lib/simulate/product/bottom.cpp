@@ -103,7 +103,7 @@ std::optional<int> first_return(std::span<const float> column) {
 }
 
 std::optional<int> first_return_of_swath(std::span<const float> column) {
-    constexpr float min_share = 1e-3F;  // of the level of the bottom
+    constexpr float min_share = 1e-3F;  // a share of the bed's level
     const int bins = static_cast<int>(column.size());
     int window = std::max(8, bins / 64);
     if (bins < window) return std::nullopt;
