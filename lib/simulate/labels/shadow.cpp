@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "core/elementary.h"
 
 namespace sonarsim {
 
@@ -117,7 +120,7 @@ std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
                                             std::span<const std::uint32_t> ground,
                                             std::span<const std::uint8_t> hidden) {
     constexpr std::ptrdiff_t nearest = 16;
-    constexpr float shadow_below = 0.1F;
+    constexpr double shadow_below = 0.1;
     const std::span<const std::uint8_t> occupied = sums.occupied(beam);
     std::vector<std::uint8_t> out(occupied.begin(), occupied.end());
     std::vector<float> echoes(hidden.size());
@@ -137,8 +140,8 @@ std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
             values.push_back(levels[open[static_cast<std::size_t>(k)]]);
         const auto middle = values.begin() + (to - from) / 2;
         std::nth_element(values.begin(), middle, values.end());
-        return std::pair(std::log(*middle),
-                         static_cast<float>(open[static_cast<std::size_t>(from + to) / 2]));
+        return std::pair(logarithm(static_cast<double>(*middle)),
+                         static_cast<double>(open[static_cast<std::size_t>(from + to) / 2]));
     };
     for (std::size_t i = 0; i < out.size() && !open.empty(); ++i) {
         if (occupied[i] == 0 || hidden[i] == 0) continue;
@@ -146,12 +149,13 @@ std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
         const bool is_last = at == std::ssize(open);
         const auto [before, left] = at == 0 ? level(at, std::min(nearest, std::ssize(open)))
                                             : level(std::max<std::ptrdiff_t>(at - nearest, 0), at);
-        const auto [after, right] = is_last ? std::pair(before, left + 1.0F)
+        const auto [after, right] = is_last ? std::pair(before, left + 1.0)
                                             : level(at, std::min(at + nearest, std::ssize(open)));
-        const float share =
-            right > left ? std::clamp((static_cast<float>(i) - left) / (right - left), 0.0F, 1.0F)
-                         : 0.0F;
-        out[i] = echoes[i] >= shadow_below * std::exp(std::lerp(before, after, share)) ? 1 : 0;
+        const double share =
+            right > left ? std::clamp((static_cast<double>(i) - left) / (right - left), 0.0, 1.0)
+                         : 0.0;
+        const double ground_level = exponential(before + share * (after - before));
+        out[i] = static_cast<double>(echoes[i]) >= shadow_below * ground_level ? 1 : 0;
     }
     return out;
 }

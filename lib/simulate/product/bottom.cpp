@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/elementary.h"
+
 namespace sonarsim {
 
 namespace {
@@ -54,7 +56,7 @@ class Logarithms {
         : sum_(bins + 1), sum2_(bins + 1) {
         std::vector<double> steps;
         for (int i = 0; i < bins; ++i) {
-            const double x = std::log(static_cast<double>(std::max(column[i], floor)));
+            const double x = logarithm(static_cast<double>(std::max(column[i], floor)));
             sum_[i + 1] = sum_[i] + x;
             sum2_[i + 1] = sum2_[i] + x * x;
             if (i >= independent)
@@ -127,7 +129,8 @@ std::optional<int> first_return_of_swath(std::span<const float> column) {
     }
     const double middle = 0.5 * (logarithms.mean(std::max(steepest - window, 0), steepest) +
                                  logarithms.mean(steepest, std::min(steepest + window, bins)));
-    return smoothed.edge(static_cast<float>(std::exp(middle)), std::max(steepest - window / 2, 0));
+    return smoothed.edge(static_cast<float>(exponential(middle)),
+                         std::max(steepest - window / 2, 0));
 }
 
 }  // namespace sonarsim
