@@ -324,7 +324,7 @@ class Command(ToolTest):
         self.refused("of another kind", pings, start="sidescan_400khz")
         self.refused("--judge", pings, "--judge", "1")
         self.refused("only keys of the water", pings, "--set", "name=x")
-        for text, why in (("kind: imaging\n", "nothing to calibrate"), ("[1]", "not a preset"), ("a: [", "not a preset"),
+        for text, why in (("kind: imaging\n", "nothing to calibrate"), ("[1]", "not a preset"), ("a: [", "is not YAML"),
                           (START + "    lustre: 1\n", "lustre"),
                           (START.replace("\n    mode: ping", " {mode: ping}") + "  pulse: {}\n", "own")):
             (self.folder / "other.yaml").write_text(text)

@@ -3,6 +3,7 @@ import base64
 import json
 import pathlib
 import pickle
+import re
 import shutil
 import struct
 import subprocess
@@ -14,6 +15,7 @@ import tool
 from PIL import Image, TiffImagePlugin
 from sonarsim.data import middles, moved, open_dataset
 from sonarsim.export import holoocean
+from sonarsim.export.source import mission_of
 
 TANK = tool.ROOT / "scenes/tank.glb"
 READER = ("@mcap/core@2", "@foxglove/rosmsg@5", "@foxglove/rosmsg2-serialization@3")
@@ -99,6 +101,16 @@ class Pings(tool.ToolTest):
         ends = [[one["min"], one["max"]] for one in mesh["accessors"] if "min" in one]
         corners = np.reshape(ends, (-1, 3)) @ turn.T
         np.testing.assert_allclose([corners.min(0), corners.max(0)], [[-4, -3, 0], [4, 3, 3]], atol=1e-6)
+
+    def test_numbers_with_exponents(self):
+        """The program writes large frequencies as 1e+06, which PyYAML takes for a text."""
+        copy = shutil.copytree(self.rendered, self.folder / "copy")
+        mission = copy / "mission.resolved.yaml"
+        text = re.sub(r"sound_speed_m_s: \d+", "sound_speed_m_s: 1.5e+03", mission.read_text())
+        mission.write_text(text + "more: [1e+06, 9E5, -1.5e-05, .5e3, e3, 1e, 1.e]\n")
+        self.succeeds("export", copy, self.folder / "dest", "--format", "mcap", "--sensor", "fls")
+        self.assertEqual(mission_of(copy)["water"]["sound_speed_m_s"], 1500.0)
+        self.assertEqual(mission_of(copy)["more"], [1e6, 9e5, -1.5e-5, 500.0, "e3", "1e", "1.e"])
 
     def test_what_npm_readers_read(self):
         self.export("--format", "mcap", "--sensor", "fls")

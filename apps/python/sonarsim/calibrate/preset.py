@@ -3,13 +3,13 @@ import dataclasses
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 
 import numpy as np
 import yaml
 
+from ..recording.description import read_yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
@@ -64,27 +64,16 @@ def preset_file(name):
 
 def read_start(name):
     file = preset_file(name)
+    given = read_yaml(file, LARGEST_PRESET)
     try:
-        with open(file, encoding="utf-8") as stream:
-            text = stream.read(LARGEST_PRESET)
-        given = yaml.safe_load(text)
         instrument = given.get("instrument") or {}
-        sections = {section: {**keys, **{key: number(value) for key, value in (instrument.get(section) or {}).items()}}
-                    for section, keys in DEFAULTS.items()}
-    except OSError as fault:
-        raise CalibrationError(f"{file}: cannot be read: {fault.strerror}") from fault
-    except (yaml.YAMLError, UnicodeDecodeError, RecursionError, AttributeError) as fault:
-        raise CalibrationError(f"{file}: is not a preset, a YAML file of a sensor's keys with the section instrument: "
-                               + " ".join(str(fault).split())) from fault
+        sections = {section: keys | (instrument.get(section) or {}) for section, keys in DEFAULTS.items()}
+    except (AttributeError, TypeError) as fault:
+        raise CalibrationError(f"{file}: is not a preset, a YAML file of a sensor's keys with the section instrument") from fault
     if given.get("model") != "calibrated":
         raise CalibrationError(f"{file}: has nothing to calibrate: only model: calibrated has an instrument")
     kind = given.get("kind", "imaging")
-    return Start(file, text, "soundings" if kind == "profiling" else kind, sections)
-
-
-def number(value):
-    """PyYAML takes 2e6 for a text."""
-    return float(value) if isinstance(value, str) and re.fullmatch(r"[-+.\d]+[eE][-+]?\d+", value) else value
+    return Start(file, file.read_text("utf-8"), "soundings" if kind == "profiling" else kind, sections)
 
 
 def set_shape(start, recording, settings):

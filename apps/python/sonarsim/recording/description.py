@@ -1,6 +1,7 @@
 """recording.yaml, which describes a folder of arrays or of an instrument's files (docs/calibrate.md)."""
 import difflib
 import math
+import re
 import types
 
 import yaml
@@ -22,6 +23,13 @@ LAW_NUMBERS = {"exponent": (0.1, 2.0, 0.5), "range_db": (0.0, 300.0, 0.0), "full
                "offset": (0.0, 0.9, 0.0)}
 SOUNDING_FILES = ("range_m", "angle_rad", "intensity")
 NEEDED = {"files": ("sound_speed_m_s", "first_range_m", "range_step_m"), "soundings": ("sound_speed_m_s",)}
+
+
+class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):      # the quick one if built
+    """Takes 1e+06 for a number, which YAML 1.2 says and PyYAML does not."""
+
+
+Loader.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"), "-+.0123456789")
 
 
 class Section:
@@ -51,7 +59,7 @@ class Section:
     def numbers(self, key, least, greatest, values=None):
         values = (self.keys.get(key) or []) if values is None else values
         try:
-            numbers = [math.nan if isinstance(one, bool) else float(one) for one in values]    # 1e3 is a text in PyYAML
+            numbers = [math.nan if isinstance(one, bool) else float(one) for one in values]
         except (TypeError, ValueError, OverflowError):
             numbers = [math.nan]
         if not all(least <= one <= greatest for one in numbers):
@@ -73,7 +81,7 @@ def read_yaml(path, largest):
     try:
         if path.stat().st_size > largest:
             raise RecordingError(f"{path}: is larger than {largest >> 20} MB")
-        return yaml.load(path.read_bytes(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))     # the quick one if built
+        return yaml.load(path.read_bytes(), Loader)
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
     except (yaml.YAMLError, UnicodeError, RecursionError) as fault:
