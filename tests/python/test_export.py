@@ -151,6 +151,32 @@ class Export(tool.ToolTest):
             self.assertGreater(found[0], 12)
             self.assertLess(found[1], 12)
 
+    def test_water_hides_what_is_as_black(self):
+        """Beside the bed's edge, straight or askew, a mask that is water is no dark thing, and none at the end of a slope. A
+        bright one is visible, as is one that is as black on the bed."""
+        rows, columns = np.mgrid[:80, :120]
+        noise = np.random.default_rng(4).normal(0, 3, (80, 120))
+        for tilt, water in ((0, 0), (0, 3), (0.6, 0), (-0.6, 2)):
+            inland = columns - 60 - tilt * (rows - 40)
+            for bed in (30 + 0 * inland, 8 + inland.clip(0, 30)):
+                grey = np.where(inland < 0, water * (1 + 0.1 * noise), bed + noise).round().clip(0, 255).astype(np.uint8)
+                for x, brighter, is_seen in ((53, 0, False), (53, 40, True), (75, 0, True)):
+                    mask = disc(120, 80, x, 40, 5)
+                    shown = np.where(mask, brighter + grey[40, 5], grey).astype(np.uint8)
+                    greys = Greys(shown, [np.flatnonzero(mask.T)], [], True)
+                    found = greys.difference(np.flatnonzero(mask.T), (x - 5, x + 6, 35, 46), None)
+                    self.assertEqual(found >= 12, is_seen, (tilt, water, bed.max(), x, brighter, found))
+
+    def test_a_thin_bright_shape_beside_water(self):
+        """Water in much of the surroundings is no grain: a bar 60 brighter than the bed is visible, the bed is not."""
+        bed = np.random.default_rng(5).normal(100, 20, (90, 90)).clip(1, 255)
+        bed[50:] = 10
+        mask = np.zeros((90, 90), bool)
+        mask[43:49, 20:70] = True
+        for brighter, is_seen in ((60, True), (0, False)):
+            greys = Greys((bed + brighter * mask).clip(0, 255).astype(np.uint8), [np.flatnonzero(mask.T)], [])
+            self.assertEqual(greys.difference(np.flatnonzero(mask.T), (20, 70, 43, 49), None) >= 12, is_seen)
+
     def test_few_grains_do_not_stand_out_by_chance(self):
         """Speckle of 5 beams to a grain: a mask of 7 x 8 pixels stands out in 1.7 of 100 pictures, 13 without `chance`."""
         drawn, found = np.random.default_rng(1), 0

@@ -142,7 +142,8 @@ def with_pixels(objects, picture, pixels, options):
         one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
         one["area"], one["box"] = one["pixels"].size, runs.box_of(one["pixels"], picture.height)
     if options.min_grey and objects:
-        greys = Greys(pixels, [one["pixels"] for one in objects], [one["shadow"] for one in objects])
+        greys = Greys(pixels, [one["pixels"] for one in objects], [one["shadow"] for one in objects],
+                      picture.kind in ("bins", "strip"))
         for one in objects:
             keep_visible_parts(one, greys, picture, options)
             one["grey"] = greys.difference(one["pixels"], one["box"], one["shadow"])

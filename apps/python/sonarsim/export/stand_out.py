@@ -5,20 +5,21 @@ from PIL import Image, ImageFilter
 REACH = 2       # pixels on either side whose mean an eye takes
 MARGIN = 6      # the least width of the surroundings
 MIDDLE = 64     # grey of a usual bed
+GRAIN = 1.9     # how far the darkest tenth of noise lies below its median, in median deviations
 CELL = 50       # pixels that one grain takes, two squares of the mean: few of them stand out by chance
 
 
 class Greys:
-    """The greys of a picture as an eye takes them; its surroundings are without the objects, which are masks, and the
-    boxes of their shadows."""
+    """The greys of a picture as an eye takes them; its surroundings are without the objects, which are masks, the boxes of
+    their shadows and, but in strips, what is black, as beyond the view."""
 
-    def __init__(self, pixels, masks, shadows):
+    def __init__(self, pixels, masks, shadows, is_strip=False):
         self.grey = np.asarray(Image.fromarray(np.ascontiguousarray(pixels)).convert("L"))
-        marks = np.zeros(self.grey.shape[::-1], np.uint8)
-        for mask in masks:
-            marks.ravel()[mask] = 255
-        self.marks = marks.T
-        self.shadows = [box for box in shadows if box]
+        marks = np.zeros(self.grey.size, np.uint8)
+        marks[np.concatenate(masks)] = 255
+        self.marks, self.bed = marks.reshape(self.grey.shape[::-1]).T, (self.grey > 0) | is_strip
+        for left, right, top, bottom in filter(None, shadows):
+            self.bed[top:bottom, left:right] = False
 
     def within(self, box, margin=(0, 0)):
         """Greys in a box with a margin, and which of them belong to surroundings."""
@@ -28,47 +29,49 @@ class Greys:
         window = slice(max(0, top - REACH), bottom + REACH), slice(max(0, left - REACH), right + REACH)
         greys, near = (np.asarray(Image.fromarray(np.ascontiguousarray(one[window])).filter(ImageFilter.BoxBlur(REACH)))
                        for one in (self.grey, self.marks))
-        bare = (near == 0) & (self.grey[window] > 0)
-        for one in self.shadows:
-            bare[max(0, one[2] - window[0].start):max(0, one[3] - window[0].start),
-                 max(0, one[0] - window[1].start):max(0, one[1] - window[1].start)] = False
         inner = (slice(top - window[0].start, bottom - window[0].start),
                  slice(left - window[1].start, right - window[1].start))
-        return greys[inner], bare[inner]
+        return greys[inner], ((near == 0) & self.bed[window])[inner]
 
-    def around(self, box, even):
-        """Of the greys around a box (left, right, top, bottom), as wide as half of it to each side: the median, its slope
-        by row and column, where it holds, and how far the darkest tenth lies below it: so far grain alone rises above it,
-        too. The slope goes through the medians of both halves, so bright things nearby do not matter; 0 if not `even`."""
+    def around(self, box):
+        """What lies around a box (left, right, top, bottom), as wide as half of it to each side: its level, a function of
+        places; the median; by how much the darkest and the brightest half differ from the level; and how far grain lies
+        above it. The level is the median, or where that leaves less grain, a slope through the medians of halves."""
         margin = max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)
         greys, bare = self.within(box, margin)
-        if not bare.any():
-            return 0.0, np.zeros(2), np.zeros(2), 0.0
         places = np.argwhere(bare) + (max(0, box[2] - margin[1]), max(0, box[0] - margin[0]))
-        own, middle = greys[bare].astype(float), np.median(places, 0)
-        median, slope = float(np.median(own)), np.zeros(2)
-        for axis, at in enumerate((places - middle).T if even else ()):
-            if (at < 0).any() and (at > 0).any():
-                slope[axis] = (np.median(own[at > 0]) - np.median(own[at < 0])) / (at[at > 0].mean() - at[at < 0].mean())
-        return median, slope, middle, median - float(np.quantile(own - (places - middle) @ slope, 0.1))
+        own = greys[bare].astype(float)
+        if not own.size:
+            places, own = np.zeros((1, 2)), np.zeros(1)
+        middle, median = np.median(places, 0), np.median(own)
+        pairs = [(at <= 0, at >= 0, at) for at in (places - middle).T]
+        slope = [(np.median(own[high]) - np.median(own[low])) / (at[high].mean() - at[low].mean() or 1) for low, high, at in pairs]
+        halves = [half for pair in pairs for half in pair[:2]]
 
-    def flat(self, box, rows, columns, around):
-        """The greys at places of a box without the slope around it."""
-        _, slope, middle, _ = around
-        return self.within(box)[0][rows - box[2], columns - box[0]] - (np.column_stack((rows, columns)) - middle) @ slope
+        def beside(slope):
+            def level(places):      # ends at the greys that are there
+                return (median + (places - middle) @ slope).clip(own.min(), own.max())
+
+            rest = own - level(places)
+            medians = [np.median(rest[half]) for half in halves]
+            # Black water in one half is no grain of the other.
+            grains = [np.median(np.abs(some - np.median(some))) for some in (rest, rest[halves[np.argmax(medians)]])]
+            return level, median, min(medians), max(medians), GRAIN * min(grains)
+
+        return min(beside(np.zeros(2)), beside(slope), key=lambda found: found[-1])
+
+    def above(self, box, rows, columns, level):
+        """The greys at places of a box above the level around it."""
+        return self.within(box)[0][rows - box[2], columns - box[0]] - level(np.stack((rows, columns), -1))
 
     def difference(self, mask, box, shadow):
-        """By how many greys the brightest tenth of a mask is above its surroundings, their grain and what few grains add
-        by chance, or the mean of it or of its shadow below these; as it looks on middle grey, since grain grows with the
-        grey. An eye takes off an even slope of the surroundings, but not a step: the larger of both."""
+        """By how many greys the brightest tenth of a mask is above each half of what is around, its grain and what few
+        grains add by chance, or the mean of it or of its shadow below each half; as on middle grey: grain grows with it."""
         columns, rows = np.divmod(mask, len(self.grey))
-        found = []
-        for even in (False, True):
-            around = median, _, _, grain = self.around(box, even)
-            own, chance = self.flat(box, rows, columns, around), grain * np.sqrt(CELL / mask.size)
-            found += [np.quantile(own, 0.9) - median - grain - chance, median - own.mean() - chance]
-            if shadow:
-                around = self.around(shadow, even)
-                places = (one.ravel() for one in np.mgrid[shadow[2]:shadow[3], shadow[0]:shadow[1]])
-                found.append(around[0] - self.flat(shadow, *places, around).mean())
-        return float(max(found)) * 2 * MIDDLE / (MIDDLE + median)
+        level, median, darkest, brightest, grain = self.around(box)
+        own, chance = self.above(box, rows, columns, level), grain * np.sqrt(CELL / mask.size)
+        found = [np.quantile(own, 0.9) - brightest - grain - chance, darkest - own.mean() - chance]
+        if shadow:
+            level, _, darkest, *_ = self.around(shadow)
+            found.append(darkest - self.above(shadow, *np.mgrid[shadow[2]:shadow[3], shadow[0]:shadow[1]], level).mean())
+        return float(max(found)) * 2 * MIDDLE / (MIDDLE + float(median))
