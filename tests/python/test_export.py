@@ -466,6 +466,7 @@ class Export(tool.ToolTest):
         coco = ("--format", "coco")
         for words, text in (((*coco, "--sensor", "no"), "there is no 'no'; there are: fls, sss"),
                             ((*coco, "--split", "train=0.5"), "the shares sum to 0.5"),
+                            ((*coco, "--tile", "64x8"), "'64x8' must be N or WIDTHxHEIGHT, of 16 to 65536"),
                             (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):
             self.refused(text, *words)
         path = self.out / "dataset.json"

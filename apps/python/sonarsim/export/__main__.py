@@ -33,9 +33,9 @@ LIMITS = {"min_pixels": (1, 1 << 30), "min_visible_share": (0, 1), "min_contrast
 
 def tile(text):
     """(width, height) of a text like 512 or 512x256."""
-    sides = [int(side) for side in text.split("x")]
+    sides = [int(side) if side.isdecimal() else 0 for side in text.split("x")]
     if len(sides) > 2 or not 16 <= min(sides) <= max(sides) <= 65536:
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"{text!r} must be N or WIDTHxHEIGHT, of 16 to 65536 pixels each")
     return sides[0], sides[-1]
 
 
