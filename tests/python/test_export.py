@@ -442,8 +442,14 @@ class Export(tool.ToolTest):
 
     def test_a_strip_that_no_part_holds(self):
         split = ("--split", "train=0.5,test=0.5", "--sensor", "sss", "--format", "yolo")
-        self.refused("shows pings of several parts of the split; cut it with --tile 24x16", *split)
-        self.refused("each tile of it .*cut it with --tile 24x16", *split, "--tile", "512")
+        self.refused("left for 'train': .* is 24 x 60 pixels; cut it with --tile 24x16", *split)
+        self.refused("cut it with --tile 24x16", *split, "--tile", "512")
+        self.refused("shows pings of other parts; take a smaller --gap", *split, "--rounds", "6", "--gap", "0")
+        split = ("--split", "train=0.7,val=0.3", *split[2:], "--gap", "0")
+        self.refused("left for 'val': .*cut it with --tile 24x16", *split, "--tile", "24x30")     # only of 'train'
+        self.export(self.out, *split, "--tile", "24x16")
+        self.assertTrue(list(self.dest.glob("images/val/*.png")))
+        self.dest = self.folder / "other"
         self.refused("none of 60 poses is left for 'train'", *split, "--gap", "200")
 
     def test_variants_and_several_datasets(self):

@@ -13,7 +13,7 @@ from ..command import need, run
 need("export", "numpy", "PIL")
 
 from . import formats, pings, split
-from .pieces import prepare
+from .pieces import frames_of, part_of, prepare
 from .source import Source
 from .statistics import Statistics
 
@@ -40,8 +40,7 @@ def tile(text):
 
 
 def parse(arguments):
-    parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes datasets in the layouts of "
-                    "trainers, robots and reconstruction.")
+    parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes what trainers and robots read.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
     add("--format", required=True, choices=[*formats.KINDS, *pings.KINDS], help="the layout")
@@ -53,23 +52,20 @@ def parse(arguments):
     add("--clean", action="store_true", help="of holoocean: images without noise")
     add("--mesh", metavar="FILE", help="of holoocean: the .glb or heightmap of the scene, written with z up")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
-    add("--image", choices=("shown", "raw"), default="shown", help="of these sonars pictures for people, or the "
-        "instrument's values")
+    add("--image", choices=("shown", "raw"), default="shown", help="their pictures for people, or raw values")
     add("--sensor", action="append", default=[], metavar="NAME", help="only this sensor; may be repeated")
     add("--without", action="append", default=[], metavar="CLASS", help="a class that is not an object; may be repeated")
     add("--min-pixels", type=int, default=16, metavar="N", help="fewer make an object faint")
     add("--min-visible-share", type=float, default=0.1, metavar="X", help="less makes it faint")
     add("--min-contrast-db", type=float, default=1.0, metavar="DB", help="less, of object and shadow, makes it faint")
-    add("--min-grey", type=float, default=12, metavar="N",
-        help="an object is faint if it stands out of its surroundings and their grain by fewer greys, of 255; 0: none is")
+    add("--min-grey", type=float, default=12, metavar="N", help="standing out by fewer greys, of 255, makes it faint")
     add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")
     add("--split", metavar="train=A,val=B,test=C", help="parts of the trajectory, or of the variants")
     add("--gap", type=int, metavar="N", help="poses left out at each border (default: a tenth of all, at most 10)")
     add("--rounds", type=int, default=1, metavar="N", help="repetitions of the parts")
     add("--tile", type=tile, metavar="N|WxH", help="cut waterfalls, echograms and sweeps into tiles")
     add("--overlap", type=int, default=0, metavar="N", help="pixels that tiles share")
-    add("--least-share", type=float, default=0.2, metavar="X",
-        help="a piece with a smaller share of its object is left out")
+    add("--least-share", type=float, default=0.2, metavar="X", help="pieces with less of their object are left out")
     add("--pixel-m", type=float, metavar="M", help="of crops: the side of a pixel in metres")
     add("--crop", type=tile, default=(64, 64), metavar="N|WxH", help="size of crops")
     add("--negatives", type=int, default=1, metavar="N", help="crops of each picture without an object")
@@ -133,22 +129,25 @@ def export(options):
             for piece in pieces:
                 layout.add(piece)
                 statistics.add(piece)
-        if not statistics.all.pictures:
-            raise ValueError(no_pictures(source.pictures[0], options.tile))
+        for part in options.split or ["train"]:
+            if part not in statistics.parts:
+                raise ValueError(no_pictures(part, source.pictures[0], options))
         layout.finish()
         formats.write_json(folder / "statistics.json", statistics.as_json())
     return print(f"{options.dest}: {options.format}\n{statistics.text()}")
 
 
-def no_pictures(picture, tile_px):
-    if picture.kind != "strip":
-        return f"{picture.path}: shows pings of several parts of the split; take a smaller --gap, or leave out --split"
-    # A tile that fits the longest stretch of the strip in one part.
-    along = max((len(list(run)) for part, run in itertools.groupby(picture.parts) if part), default=0) // 2
-    sides = (picture.width, along) if picture.rows_are_pings else (along, picture.height)
-    return (f"{picture.path}: is {picture.width} x {picture.height} pixels, and {'each tile of ' if tile_px else ''}it "
-            f"shows pings of several parts of the split; cut it with --tile {max(16, sides[0])}x{max(16, sides[1])}, "
-            "or leave out --split")
+def no_pictures(part, picture, options):
+    """Why a part of the split gets none, with the tile, if there is one, that gives each part some."""
+    runs = [(shown, len(list(run))) for shown, run in itertools.groupby(picture.parts)]
+    along = min(max((length for shown, length in runs if shown == one), default=0) for one in options.split or [part])
+    sides = (picture.width, along // 2) if picture.rows_are_pings else (along // 2, picture.height)
+    options.tile = [max(16, side) for side in sides]
+    text = f"--split: no picture is left for {part!r}: {picture.path} "
+    if picture.kind == "strip" and options.overlap < min(options.tile) and set(options.split or ()) <= {
+            part_of(picture, frame) for frame in frames_of(picture, options)}:
+        return f"{text}is {picture.width} x {picture.height} pixels; cut it with --tile {options.tile[0]}x{options.tile[1]}"
+    return f"{text}shows pings of other parts; take a smaller --gap, fewer --rounds or more variants, or leave it out"
 
 
 def main(arguments):
