@@ -17,6 +17,7 @@ class Greys:
         self.grey = np.asarray(Image.fromarray(np.ascontiguousarray(pixels)).convert("L"))
         marks = np.zeros(self.grey.size, np.uint8)
         marks[np.concatenate(masks)] = 255
+        self.is_strip = is_strip
         self.marks, self.bed = marks.reshape(self.grey.shape[::-1]).T, (self.grey > 0) | is_strip
         for left, right, top, bottom in filter(None, shadows):
             self.bed[top:bottom, left:right] = False
@@ -34,9 +35,10 @@ class Greys:
         return greys[inner], ((near == 0) & self.bed[window])[inner]
 
     def around(self, box):
-        """What lies around a box (left, right, top, bottom), as wide as half of it to each side: its level, a function of
-        places; the median; by how much the darkest and the brightest half differ from the level; and how far grain lies
-        above it. The level is the median, or where that leaves less grain, a slope through the medians of halves."""
+        """What lies around a box (left, right, top, bottom), as wide as half of it to each side, by the median and by a
+        slope through the medians of halves: the level, a function of places; the median; by how much the darkest and the
+        brightest half differ from the level; how far grain lies above it. Water and bed of a strip meet at a step, so there
+        the halves count, and of both levels that with less grain; in fans light and shade are smooth, and both count."""
         margin = max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)
         greys, bare = self.within(box, margin)
         places = np.argwhere(bare) + (max(0, box[2] - margin[1]), max(0, box[0] - margin[0]))
@@ -56,9 +58,11 @@ class Greys:
             medians = [np.median(rest[half]) for half in halves]
             # Black water in one half is no grain of the other.
             grains = [np.median(np.abs(some - np.median(some))) for some in (rest, rest[halves[np.argmax(medians)]])]
-            return level, median, min(medians), max(medians), GRAIN * min(grains)
+            steps = (min(medians), max(medians)) if self.is_strip else (0.0, 0.0)
+            return level, median, *steps, GRAIN * min(grains)
 
-        return min(beside(np.zeros(2)), beside(slope), key=lambda found: found[-1])
+        levels = [beside(np.zeros(2)), beside(slope)]
+        return [min(levels, key=lambda one: one[-1])] if self.is_strip else levels
 
     def above(self, box, rows, columns, level):
         """The greys at places of a box above the level around it."""
@@ -68,10 +72,10 @@ class Greys:
         """By how many greys the brightest tenth of a mask is above each half of what is around, its grain and what few
         grains add by chance, or the mean of it or of its shadow below each half; as on middle grey: grain grows with it."""
         columns, rows = np.divmod(mask, len(self.grey))
-        level, median, darkest, brightest, grain = self.around(box)
-        own, chance = self.above(box, rows, columns, level), grain * np.sqrt(CELL / mask.size)
-        found = [np.quantile(own, 0.9) - brightest - grain - chance, darkest - own.mean() - chance]
-        if shadow:
-            level, _, darkest, *_ = self.around(shadow)
+        found = []
+        for level, median, darkest, brightest, grain in self.around(box):
+            own, chance = self.above(box, rows, columns, level), grain * np.sqrt(CELL / mask.size)
+            found += [np.quantile(own, 0.9) - brightest - grain - chance, darkest - own.mean() - chance]
+        for level, _, darkest, *_ in self.around(shadow) if shadow else ():
             found.append(darkest - self.above(shadow, *np.mgrid[shadow[2]:shadow[3], shadow[0]:shadow[1]], level).mean())
         return float(max(found)) * 2 * MIDDLE / (MIDDLE + float(median))
