@@ -138,6 +138,22 @@ TEST_CASE("OBJ: objects and groups are nodes, usemtl names materials, polygons a
     CHECK(scene.rejects.skipped_primitives == 1);
 }
 
+TEST_CASE("OBJ: no way to write a vertex lets faces have others") {
+    const Scene plain =
+        scene_of("a.obj", "v 0.5 0.1 0\nv 1 0 0.25\nv 0 0 -0.5\nv 9 9 9\nf 1 2 3\n");
+    for (const char* const text :
+         {"v .5 .1 0\nv 1 0 .25\nv 0 0 -.5\nv 9 9 9\nvt .5 .5\nvn .1 1 0\nf 1/1/1 2/1/1 3/1/1\n",
+          "# C:\\hulls\\\n v 0.5 0.1 0 # 7\r\n\tv 1 0 0.25 1\rv 0 0 -.5 .1 .2 .3\nv 9 9 9\n f 1 2 "
+          "3\n",
+          "v +.5 .1e0 0.\nv 1 0 0.25\nv 0 0 -5.e-1\nv 9 9 9\nf -4 -3 -2\n"}) {
+        CAPTURE(text);
+        const Scene scene = scene_of("a.obj", text);
+        REQUIRE(scene.triangles.size() == 1);
+        CHECK(scene.origin == plain.origin);
+        CHECK(scene.vertices == plain.vertices);
+    }
+}
+
 TEST_CASE("OBJ: faces before the first usemtl have no material, and a group is one instance") {
     const Scene scene = scene_of("crane.obj",
                                  "\xEF\xBB\xBFv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n"
@@ -174,6 +190,8 @@ TEST_CASE("OBJ, STL and PLY: files that are faulty") {
         {"a.obj", "\x89PNG\r\n\x1a\n and so on, for a while", "a.obj: has no faces"},
         {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "vertex index out of range"},
         {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -9\n", "vertex index out of range"},
+        {"a.obj", "v 0 0 0\r\nv 1 .x 0\r\n", "a.obj:2: '.x' of a vertex is not a number"},
+        {"a.obj", "v 0 0 0\n\nv 1 0\n", "a.obj:3: a vertex has 2 numbers; expected x, y, z"},
         {"a.stl", "", "a.stl: is not an STL: it is too short for one"},
         {"a.stl", text_stl().substr(0, 200), "a.stl: the STL has no endsolid; it was cut off"},
         {"a.stl", binary_stl().substr(0, 200),

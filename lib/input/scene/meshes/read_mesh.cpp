@@ -17,6 +17,7 @@
 #include "core/file.h"
 #include "core/module.h"
 #include "core/text.h"
+#include "input/scene/meshes/mesh_text.h"
 #include "input/scene/meshes/module.h"
 #include "input/scene/model_data.h"
 
@@ -33,17 +34,6 @@ std::string format_of(const std::filesystem::path& path) {
 }
 
 constexpr const char* cut_off = "; it was cut off: copy or export it again";
-
-/// The next word behind blanks; "" at the end.
-std::string_view take_word(std::string_view& text) {
-    constexpr std::string_view blanks = " \t\r\n\v\f";
-    const std::size_t from = text.find_first_not_of(blanks);
-    if (from == std::string_view::npos) return text = {};
-    text.remove_prefix(from);
-    const std::string_view word = text.substr(0, text.find_first_of(blanks));
-    text.remove_prefix(word.size());
-    return word;
-}
 
 std::string_view take_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
@@ -251,14 +241,6 @@ struct ModelBuilder {
     }
 };
 
-/// Changes the text of an OBJ where libassimp would misread it: it takes a byte order mark for a
-/// part of the first line, and gives the faces before the first usemtl the material of that.
-void mend_obj(std::string& text) {
-    text = without_byte_order_mark(text);
-    // libassimp's name for no material.
-    if (text.find("usemtl") != std::string::npos) text.insert(0, "usemtl DefaultMaterial\n");
-}
-
 }  // namespace
 
 bool is_mesh_file(const std::filesystem::path& path) {
@@ -275,7 +257,7 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
     const Location where{path.string()};
     const std::string format = format_of(path);
     std::string bytes = read_file(path, max_mesh_bytes);
-    if (format == "obj") mend_obj(bytes);
+    if (format == "obj") bytes = mended_obj(std::move(bytes), where);
     std::string_view whole = bytes;
     if (format == "stl") whole = whole_stl(bytes, where);
     if (format == "ply") require_whole_ply(bytes, where);
