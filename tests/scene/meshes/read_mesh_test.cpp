@@ -30,14 +30,14 @@ std::string obj() {
 }
 
 std::string text_stl() {
-    std::string out = "solid tetra\n";
+    std::string out = "solid  tetra  one \n";
     for (const auto& face : faces) {
         out += "facet normal 0 0 0\nouter loop\n";
         for (const int k : face)
             out += "vertex " + text_of(corners[static_cast<std::size_t>(k)]);
         out += "endloop\nendfacet\n";
     }
-    return out + "endsolid tetra\n";
+    return out + "endsolid tetra one\n";
 }
 
 std::string binary_stl() {
@@ -119,7 +119,8 @@ TEST_CASE("OBJ, STL and PLY: the corners of every triangle, in the order of the 
         }
         CHECK(scene.materials.front().name == "(no material)");
         const bool is_named = name == "a.STL";
-        CHECK(scene.instances == std::vector<std::string>{is_named ? "tetra" : name.substr(0, 1)});
+        CHECK(scene.instances ==
+              std::vector<std::string>{is_named ? "tetra  one" : name.substr(0, 1)});
     }
 }
 
@@ -127,14 +128,14 @@ TEST_CASE("OBJ: objects and groups are nodes, usemtl names materials, polygons a
     const Scene scene = scene_of("crane.obj",
                                  "mtllib /etc/passwd\n"
                                  "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 2.5 0\nv 0 2 0\n"
-                                 "o jib\nusemtl steel\nf 1 2 3 4 5\nusemtl rubber\nf 1 2 3\n"
-                                 "g cab\nf 3 4 5\nl 1 2\n");
-    CHECK(scene.instances == std::vector<std::string>{"jib", "cab"});
+                                 "o jib 1 \nusemtl steel\nf 1 2 3 4 5\nusemtl rubber\nf 1 2 3\n"
+                                 "o jib 2\nf 3 4 5\nl 1 2\ng cab 1\nf 1 2 4\n");
+    CHECK(scene.instances == std::vector<std::string>{"jib 1", "jib 2", "cab 1"});
     REQUIRE(scene.materials.size() == 2);
     CHECK(scene.materials[0].name == "steel");
     CHECK(scene.materials[1].name == "rubber");
-    CHECK(scene.triangle_material == std::vector<std::uint32_t>{0, 0, 0, 1, 1});
-    CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 0, 0, 0, 1});
+    CHECK(scene.triangle_material == std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1});
+    CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 0, 0, 0, 1, 2});
     CHECK(scene.rejects.skipped_primitives == 1);
 }
 

@@ -35,13 +35,6 @@ std::string format_of(const std::filesystem::path& path) {
 
 constexpr const char* cut_off = "; it was cut off: copy or export it again";
 
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    return trim(line);
-}
-
 /// A type of numbers in a PLY.
 struct PlyType {
     std::size_t bytes = 0;
@@ -163,7 +156,8 @@ bool take_element(std::string_view& body, const PlyHeader& header, const PlyElem
 
 /// The relevant part of an STL: a binary one without the bytes that exporters leave behind its
 /// triangles. InputError if it ends before its last triangle does.
-std::string_view whole_stl(std::string_view bytes, const Location& where) {
+std::string_view whole_stl(std::string& text, const Location& where) {
+    const std::string_view bytes = text;
     constexpr std::size_t head = 84;
     constexpr std::size_t triangle_bytes = 50;
     std::uint32_t claimed = 0;
@@ -176,7 +170,7 @@ std::string_view whole_stl(std::string_view bytes, const Location& where) {
         if (bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096))
                 .rfind("endsolid") == std::string_view::npos)
             throw InputError(where, std::string("the STL has no endsolid") + cut_off);
-        return bytes;
+        return text = mended_text(text, where);
     }
     if (bytes.size() < head) throw InputError(where, "is not an STL: it is too short for one");
     if (size > bytes.size()) {
@@ -218,7 +212,9 @@ struct ModelBuilder {
 
     void add(const SonarsimMeshPart& part) {
         // Files may have names in any encoding; those of a dataset are UTF-8.
-        const std::string name = printable(part.node);
+        std::string node = part.node;
+        std::ranges::replace(node, blank_of_name, ' ');
+        const std::string name = printable(node);
         const int mesh = mesh_of(name.empty() ? title : name);
         if (part.triangles > 0) {
             const int positions =
@@ -257,7 +253,11 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
     const Location where{path.string()};
     const std::string format = format_of(path);
     std::string bytes = read_file(path, max_mesh_bytes);
-    if (format == "obj") bytes = mended_obj(std::move(bytes), where);
+    if (format == "obj") bytes = mended_text(without_byte_order_mark(bytes), where);
+    // libassimp gives the faces before the first usemtl the material of that. This is its name for
+    // none.
+    if (format == "obj" && bytes.find("usemtl") != std::string::npos)
+        bytes.insert(0, "usemtl DefaultMaterial\n");
     std::string_view whole = bytes;
     if (format == "stl") whole = whole_stl(bytes, where);
     if (format == "ply") require_whole_ply(bytes, where);
