@@ -17,6 +17,7 @@
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 #include "input/scene/scene.h"
+#include "input/scene/seabed/seabed.h"
 #include "mission_options.h"
 #include "run/job/folder.h"
 #include "simulate/assembly/placed_files.h"
@@ -52,13 +53,6 @@ const CsvRow* row_of(const CsvTable& table, const std::string& name) {
     return best;
 }
 
-std::string joined(const std::vector<std::string>& fields) {
-    std::string line;
-    for (const std::string& field : fields)
-        line += (&field == fields.data() ? "" : ",") + field;
-    return line + "\n";
-}
-
 CsvTable known_materials() {
     const std::filesystem::path file = shipped_file("../scenes/materials.csv");
     if (file.empty())
@@ -72,7 +66,7 @@ CsvTable known_materials() {
 /// is missing.
 GuessedMaterials guess_materials(const Scene& mesh, const std::vector<std::string>& beds) {
     const CsvTable table = known_materials();
-    GuessedMaterials out{joined(table.header.fields), {}, ""};
+    GuessedMaterials out{listed(table.header.fields, ",") + "\n", {}, ""};
     std::set<std::string> written;
     const auto add = [&](const std::string& name, const char* usual) {
         if (!written.insert(name).second) return;
@@ -84,7 +78,7 @@ GuessedMaterials guess_materials(const Scene& mesh, const std::vector<std::strin
             out.csv += "# guess: the numbers of " + fields.front() + "\n";
             fields.front() = csv_field(name);
         }
-        out.csv += joined(fields);
+        out.csv += listed(fields, ",") + "\n";
     };
     for (const Material& material : mesh.materials) {
         if (material.name != nameless) {
@@ -152,6 +146,15 @@ ReadMesh read_as_meant(const NewArguments& arguments) {
     return mesh;
 }
 
+/// The name of the object and of the mission: that of the file, without what `look_at`, YAML and
+/// shells may read otherwise, and none that means something else in the mission.
+std::string safe_name(const fs::path& mesh) {
+    const std::regex unsafe(R"(^-+|[\x01-,./:-@\[-`{-\x7f]+)");
+    const std::string name = std::regex_replace(mesh.stem().string(), unsafe, "_");
+    const std::set<std::string> reserved{all_objects, rock_class, "bottom", "heightmap", "seabed"};
+    return reserved.contains(name) ? name + "_mesh" : name;
+}
+
 /// A preset as a mission in `folder` names it. InputError if there is none.
 std::string preset_in(const fs::path& folder, const std::string& kind, const std::string& name) {
     std::string shipped = kind + "/" + name + ".yaml";
@@ -177,7 +180,7 @@ Distances distances_of(double diagonal, double longest, double ripple) {
 std::string mission_text(const NewArguments& arguments, const ReadMesh& mesh, const fs::path& csv,
                          const std::string& default_material, const Distances& at) {
     const fs::path folder = fs::absolute(csv).parent_path();
-    const std::string name = quoted_text(arguments.mesh.stem().string());
+    const std::string name = quoted_text(safe_name(arguments.mesh));
     const Eigen::Vector3d middle = 0.5 * (mesh.scene.bounds_min + mesh.scene.bounds_max);
     const double diagonal = (mesh.scene.bounds_max - mesh.scene.bounds_min).norm();
     const std::string preset = !arguments.preset.empty() ? arguments.preset
@@ -225,7 +228,12 @@ void write_new(const fs::path& file, const std::string& text) {
 
 int make_mission(const NewArguments& arguments) {
     const fs::path out =
-        arguments.out.empty() ? fs::path(arguments.mesh.stem().string() + ".yaml") : arguments.out;
+        arguments.out.empty() ? fs::path(safe_name(arguments.mesh) + ".yaml") : arguments.out;
+    for (const std::string& file : {arguments.mesh.string(), out.string()}) {
+        if (printable(file) != file)
+            throw InputError({printable(file)},
+                             "a mission names only UTF-8 without control characters; rename it");
+    }
     const fs::path folder = fs::absolute(out).parent_path();
     const fs::path csv = folder / (out.stem().string() + "_materials.csv");
     for (const fs::path& file : {out, csv.lexically_proximate(fs::current_path())}) {
@@ -233,14 +241,14 @@ int make_mission(const NewArguments& arguments) {
             throw InputError({file.string()}, "is there already; give another name with --out");
     }
     const ReadMesh mesh = read_as_meant(arguments);
-    const double diagonal = (mesh.scene.bounds_max - mesh.scene.bounds_min).norm();
+    const Eigen::Vector3d size = mesh.scene.bounds_max - mesh.scene.bounds_min;
     const Mission first =
         parse_mission(mission_text(arguments, mesh, csv, "", {1.0, 2.0, 0.0, 0.01}), out.string(),
                       folder, {}, sonar_keys());
     if (first.sensors.front().kind != SonarKind::imaging)
         throw InputError({arguments.preset}, "is no imaging sonar, which a new mission needs");
     const SeabedConfig& bed = *first.scene.seabed;
-    const Distances at = distances_of(diagonal, first.sensors.front().range_max_m,
+    const Distances at = distances_of(size.norm(), first.sensors.front().range_max_m,
                                       bed.ripples ? bed.ripples->length_m : 2.0);
     const GuessedMaterials materials = guess_materials(mesh.scene, materials_of(bed));
     fs::create_directories(folder);
@@ -248,10 +256,10 @@ int make_mission(const NewArguments& arguments) {
     write_new(out, mission_text(arguments, mesh, csv, materials.default_material, at));
     if (!arguments.log.prints_result()) return exit_done;
     const std::string name = out.string();
-    fmt::print("{}", result_line("mission", name));
-    fmt::print("{}",
+    fmt::print("{}{}", result_line("mission", name),
                result_line("materials", csv.lexically_proximate(fs::current_path()).string()));
-    fmt::print("{}", result_line("size", fmt::format("{:.3g} m", diagonal) + " across, read as " +
+    fmt::print("{}", result_line("size", fmt::format("{:.3g} x {:.3g} x {:.3g} m, read as ",
+                                                     size.x(), size.y(), size.z()) +
                                              reading_of(file_of(arguments.mesh, mesh.config, {}))));
     for (const std::vector<std::string>& some : {mesh.guesses, materials.guesses}) {
         for (const std::string& guess : some)

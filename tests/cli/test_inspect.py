@@ -1,6 +1,8 @@
 """sonarsim new, inspect, preset and preview, what a user looks at before a render; and the report of speed against error."""
 import json
 import math
+import os
+import random
 import struct
 import unittest
 
@@ -101,8 +103,37 @@ class New(Sandbox):
         scene = gltf([{"name": "walls", "mesh": 0, "translation": [30, 5, -4]}], [box_mesh((3, 1, 2))], ("Steel",)).encode()
         scene += b" " * (-len(scene) % 4)
         self.write("ark.glb", struct.pack("<4s4I", b"glTF", 2, 20 + len(scene), len(scene), 0x4E4F534A) + scene)
-        text = self.assert_a_mission("ark.glb", "position_m: [-30.000, -4.000, 0]", "Steel,7850,5890,")
+        text = self.assert_a_mission("ark.glb", "size        6 x 4 x 2 m, read as", "position_m: [-30.000, -4.000, 0]",
+                                     "Steel,7850,5890,")
         self.assertNotIn("units", text)
+
+    def test_any_name_of_a_file(self):
+        """`look_at` splits at commas, the ground and classes have names of their own, and YAML has its signs."""
+        points, faces = pyramid(1)
+        mesh = ("".join(f"v {x} {z} {-y}\n" for x, y, z in points)
+                + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+        draw = random.Random(7)
+        characters = "a1,.:#-_'\"\\{}[]&*!|>%@`~$() ?=äß\u4e2d\u2028\ufeff"
+        drawn = ["".join(draw.choices(characters, k=draw.randint(1, 12))) for _ in range(20)]
+        names = ["my hull, v2", "seabed", "heightmap", "objects", "bottom", "background", "rock", "rock_1", "null", "true",
+                 "1e5", "0x1f", ".5", "~", "none", "all", "x" * 180, *drawn]
+        small = [word for key in ("trajectory.count=2", "sensors.fls.azimuth_bins=16", "sensors.fls.range_bins=32",
+                                  "scene.seabed.cell_m=0.5", "accuracy.relative_l1=0.3") for word in ("--set", key)]
+        for k, name in enumerate(names):
+            with self.subTest(name=name):
+                folder = self.folder / str(k)
+                folder.mkdir()
+                (folder / f"{name}.obj").write_text(mesh)
+                bed = draw.choice(("sand", "rocky"))
+                printed = self.succeeds("new", f"./{name}.obj", "--bed", bed, cwd=folder).stdout
+                mission = next(folder.glob("*.yaml")).name
+                self.assertIn(f"sonarsim preview {mission}\n", printed)
+                self.assertRegex(mission, r"^[^-][^ ,:'\"$&*]*$")
+                found = json.loads(self.succeeds("validate", mission, "--json", *small, cwd=folder).stdout)
+                self.assertEqual(found["pings"], 2)
+        for name in (b"a\n.obj", b"\xfcber.obj"):
+            (self.folder / os.fsdecode(name)).write_text(mesh)
+            self.assert_refused(self.run_sonarsim("new", os.fsdecode(name)), "rename it")
 
     def test_what_is_refused(self):
         self.write("note.obj", "Dear reader")
