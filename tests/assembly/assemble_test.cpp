@@ -65,6 +65,31 @@ TEST_CASE("assemble: trajectories of files and of lines, at the rate that is ask
     CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
 }
 
+TEST_CASE("assemble: a made bed is as large wherever in its file an object lies") {
+    const MissionOnDisk disk;
+    std::string text = read_file(disk.folder.path / "wall.gltf", 10000);
+    text.replace(text.find("\"mesh\": 0"), 9, R"("mesh": 0, "translation": [1000, 7, -500])");
+    write_file(disk.folder.path / "far.gltf", text);
+    const auto size = [&](const std::string& object) -> Eigen::Vector2d {
+        const std::vector<std::string> settings{
+            "scene={materials: materials.csv, seabed: {cell_m: 0.5, z_m: -10, material: concrete}, "
+            "objects: [{name: wall, place: on_bottom, " +
+            object + "}]}"};
+        const Assembly assembled = assemble(disk.load("{file: poses.csv}", settings));
+        return (assembled.scene->bounds_max - assembled.scene->bounds_min).head<2>();
+    };
+    const Eigen::Vector2d near = size("file: wall.gltf");
+    CHECK(near.maxCoeff() < 40.0);
+    CHECK(size("file: far.gltf, position_m: [-1000, -500, 0]") == near);
+    // Turned by 90 degrees (x, y) is (-y, x); the wall, as long as the ground in range, leaves
+    // that.
+    CHECK(size("file: far.gltf, scale: 0.5, rpy_deg: [0, 0, 90], position_m: [250, -500, 0]")
+              .maxCoeff() < 40.0);
+    // A slope would turn it about its origin, 1118 m away.
+    CHECK(size("file: far.gltf, align: true, position_m: [-1000, -500, 0], scale: 0.1").minCoeff() >
+          200.0);
+}
+
 TEST_CASE("assemble: look_at has an object at the distance, bearing and height that were given") {
     const MissionOnDisk disk;
     const std::vector<std::string> settings{two_walls, "labels.background=[wall]", "seed=7"};

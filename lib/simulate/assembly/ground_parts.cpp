@@ -56,9 +56,14 @@ Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) 
     Eigen::AlignedBox2d ground;
     for (const ObjectConfig& object : scene.objects) {
         if (object.trajectory) continue;
+        const Eigen::Affine3d T_world_file = transform_of(object);
         double reach_m = 0.0;
-        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices)
+        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices) {
+            ground.extend((T_world_file * vertex).head<2>());
             reach_m = std::max(reach_m, object.scale * vertex.norm());
+        }
+        if (!object.align) continue;
+        // A slope turns it about the origin of its file.
         const Eigen::Vector2d at(object.position_m.data());
         ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
     }

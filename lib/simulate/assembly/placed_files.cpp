@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/pose.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 
@@ -24,6 +26,18 @@ PlacedFile file_of(const ObjectConfig& object) {
     file.class_name = object.class_name;
     file.moves = object.trajectory.has_value();
     return file;
+}
+
+Eigen::Quaterniond attitude_of(const ObjectConfig& object) {
+    return rotation_from_rpy(radians(object.rpy_deg[0]), radians(object.rpy_deg[1]),
+                             radians(object.rpy_deg[2]));
+}
+
+Eigen::Affine3d transform_of(const ObjectConfig& object) {
+    Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
+    T_world_file.translation() = Eigen::Vector3d(object.position_m.data());
+    T_world_file.linear() = object.scale * attitude_of(object).toRotationMatrix();
+    return T_world_file;
 }
 
 std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file) {

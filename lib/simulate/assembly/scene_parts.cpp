@@ -23,10 +23,6 @@ namespace sonarsim {
 
 namespace {
 
-Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
-    return rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2]));
-}
-
 /// The bottom that objects rest on, made at its first use.
 class LazyBottom {
   public:
@@ -107,8 +103,7 @@ class LazyBottom {
                              "on: it must neither move nor rest on the bottom itself");
         }
         PlacedFile file = file_of(first);
-        file.T_world_file.translation() = Eigen::Vector3d(first.position_m.data());
-        file.T_world_file.linear() = first.scale * attitude_of(first.rpy_deg).toRotationMatrix();
+        file.T_world_file = transform_of(first);
         return file;
     }
 
@@ -118,15 +113,13 @@ class LazyBottom {
     std::shared_ptr<const Bottom> bottom_;
 };
 
-/// The transform of an object of the mission.
-Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom,
-                             double range_m) {
-    const Eigen::Vector3d position(object.position_m.data());
-    const Eigen::Quaterniond attitude = attitude_of(object.rpy_deg);
+/// The transform of an object, which may rest on the bottom.
+Eigen::Affine3d settled_transform(const ObjectConfig& object, const Surface& shape,
+                                  LazyBottom& bottom, double range_m) {
     if (object.place_on == ObjectPlace::on_bottom) {
         const auto T_world_file =
-            put_on_bottom(bottom.get(), shape, position.head<2>(),
-                          {attitude, object.scale, object.align, object.bury_m});
+            put_on_bottom(bottom.get(), shape, Eigen::Vector2d(object.position_m.data()),
+                          {attitude_of(object), object.scale, object.align, object.bury_m});
         if (T_world_file) return *T_world_file;
         throw InputError(object.place,
                          title_of(object) + " reaches beyond the bottom, which lies" +
@@ -135,10 +128,7 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
                                                    object.scale * box_of(shape).sizes().maxCoeff(),
                                                    object.mesh, range_m));
     }
-    Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
-    T_world_file.translation() = position;
-    T_world_file.linear() = object.scale * attitude.toRotationMatrix();
-    return T_world_file;
+    return transform_of(object);
 }
 
 /// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
@@ -305,7 +295,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                                                object.file.string() + "; name another file");
         }
         if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
-        file.T_world_file = transform_of(object, shape, bottom, range_m);
+        file.T_world_file = settled_transform(object, shape, bottom, range_m);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));
             continue;
