@@ -1,5 +1,10 @@
 #include "input/mission/resolved.h"
 
+#include <limits>
+#include <regex>
+
+#include "core/text.h"
+#include "input/mission/value_types.h"
 #include "mission/fixtures.h"
 
 namespace sonarsim {
@@ -57,6 +62,19 @@ TEST_CASE("the resolved mission reads back as the same mission") {
         {{{1, 2, 3}, {4, 5, 6}}, {{-1, 0.1, 1e-9}, {7, -8, 9}}}, 3.25, 0.5};
     CHECK(reads_back(mission));
     CHECK(reads_back(parse(smallest_mission)));
+}
+
+TEST_CASE("numbers of the resolved mission are numbers of YAML 1.1, too") {
+    // https://yaml.org/type/float.html and int.html: an exponent needs a point and a sign.
+    const std::regex number(R"([-+]?[0-9]+(\.[0-9]*([eE][-+][0-9]+)?)?)");
+    for (const double value : {0.0, -3.0, 1e6, 9e5, 2.5e22, -1e-7, 1e-300, 1.0 / 3.0, 1e23, 5e-324,
+                               std::numeric_limits<double>::max()}) {
+        const std::string text = yaml_text(value);
+        CHECK_MESSAGE(std::regex_match(text, number), text);
+        CHECK(parse_number(text) == value);
+    }
+    CHECK(yaml_text(std::array{1e6, 0.5}) == "[1.0e+06, 0.5]");
+    CHECK(yaml_text(std::optional(9e5)) == "9.0e+05");
 }
 
 TEST_CASE("the hash knows what is rendered, not where it lies") {

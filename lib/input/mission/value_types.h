@@ -54,8 +54,12 @@ std::vector<bool> chosen_of(const YamlNode& node, const char* key,
 
 // The value of a key as YAML; "": the key is not written.
 
+/// YAML 1.1, as of PyYAML, takes 1e+06 for text, but 1.0e+06 for a number.
 inline std::string yaml_text(double value) {
-    return number_text(value);
+    std::string text = number_text(value);
+    const std::size_t exponent = text.find('e');
+    if (exponent < text.find('.')) text.insert(exponent, ".0");
+    return text;
 }
 inline std::string yaml_text(int value) {
     return std::to_string(value);
@@ -67,7 +71,7 @@ inline std::string yaml_text(bool value) {
     return value ? "true" : "false";
 }
 inline std::string yaml_text(const std::optional<double>& value) {
-    return value ? number_text(*value) : "auto";
+    return value ? yaml_text(*value) : "auto";
 }
 
 /// Text is always quoted, so that a sensor named "null" stays text.
@@ -93,7 +97,7 @@ std::string yaml_text(const std::vector<T>& values) {
 }
 template <std::size_t N>
 std::string yaml_text(const std::array<double, N>& values) {
-    return yaml_list(values, number_text);
+    return yaml_list(values, [](double value) { return yaml_text(value); });
 }
 template <std::size_t N>
 std::string yaml_text(const std::optional<std::array<double, N>>& values) {
