@@ -12,7 +12,7 @@ bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
           GeoTIFF
 basin     the map of decibels of the floor of scenes/basin.obj, basin_floor.tif
-stock     forty kinds of things, each in six drawn examples: stock/tyre_1.glb and so on, for
+stock     43 kinds of things, each in six drawn examples: stock/tyre_1.glb and so on, for
           `scatter: [{stock: tyre}]`
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]

@@ -118,6 +118,14 @@ TEST_CASE("what is refused of stock, clutter and areas") {
     };
     begins("  scatter: [{name: a, stock: [tire]}]\n",
            "4:31: the stock has no 'tire' (did you mean 'tyre'?)");
+    const std::string several = test::fault_of([&] {
+        parse(head + "  scatter: [{name: a, stock: [tire, can, nett]}]\n" + tail + "ph: 8\n");
+    });
+    for (const char* const words :
+         {"4:31: the stock has no 'tire'", "4:42: the stock has no 'nett'", "unknown key 'ph'"})
+        CHECK_MESSAGE(several.find(words) != std::string::npos, several);
+    begins("  scatter: [{name: a, stock: []}]\n",
+           "4:30: a rule of 'scatter' needs 'stock' or 'files'");
     begins("  scatter: [{name: a, files: a.glb}]\n", "4:13: 'a' needs an area: ");
     begins("  scatter: [{name: a}]\n", "4:13: a rule of 'scatter' needs 'stock' or 'files'");
     begins("  scatter: [{name: a, files: a.glb, area_min_m: [0, 0]}]\n",

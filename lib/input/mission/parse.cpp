@@ -168,8 +168,8 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
     mission.name = std::filesystem::path(file_name).stem().string();
     YamlNode filled = root;
     fill_in_presets(filled, base_folder);
-    fill_in_stock(filled, base_folder);
     ErrorList errors;
+    fill_in_stock(filled, base_folder, errors);
     errors.attempt([&] {
         MissionReader reader(filled, "mission", base_folder, sonars, errors);
         describe(reader, mission);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/text.h"
@@ -46,25 +47,28 @@ YamlNode& add_list(YamlNode& section, const char* key, const YamlPlace& place) {
     return list;
 }
 
-/// The files of a kind of the stock, absolute.
-void add_files(const YamlNode& kind, const std::filesystem::path& base_folder,
-               std::vector<YamlNode>& files) {
+/// The files of a kind of the stock, absolute. `missing`: a file was not there, which is one error
+/// for all, as the script makes all of them.
+void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, ErrorList& errors,
+               bool& missing, std::vector<YamlNode>& files) {
     const std::vector<std::string> kinds(std::begin(stock_kinds), std::end(stock_kinds));
-    if (std::ranges::find(kinds, kind.text) == kinds.end()) {
+    const bool is_known = errors.attempt([&] {
+        if (std::ranges::find(kinds, kind.text) != kinds.end()) return;
         refuse(kind, "the stock has no " + in_quotes(kind.text) + did_you_mean(kind.text, kinds) +
                          "; there are: " + listed(kinds));
-    }
+    });
     for (int k = 1; k <= stock_examples; ++k) {
         const std::string name = kind.text + "_" + std::to_string(k) + ".glb";
         const std::filesystem::path path =
             preset_file("../scenes/generated/stock/" + name, base_folder);
-        if (path.empty()) {
+        errors.attempt([&] {
+            if (!path.empty() || !is_known || std::exchange(missing, true)) return;
             refuse(kind, "the stock's file " + name +
                              " has not been made; scripts/make_scenes.py stock makes it, as "
                              "scripts/render.sh does with a mission");
-        }
+        });
         YamlNode& file = files.emplace_back(kind);
-        file.text = path.lexically_normal().string();
+        file.text = path.empty() ? name : path.lexically_normal().string();
         file.quoted = true;
     }
 }
@@ -100,7 +104,7 @@ std::optional<AreaConfig> default_area(const SceneConfig& scene, const ScatterCo
 
 }  // namespace
 
-void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder) {
+void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder, ErrorList& errors) {
     YamlNode* const scene = child(&mission, "scene");
     if (const YamlNode* const clutter = child(scene, "clutter")) {
         YamlNode rule = rule_of_clutter(*clutter);
@@ -111,14 +115,15 @@ void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder) 
     }
     YamlNode* const rules = child(scene, "scatter");
     if (rules == nullptr || rules->kind != YamlNode::Kind::list) return;
+    bool missing = false;
     for (YamlNode& rule : rules->items) {
         const YamlNode* const stock = child(&rule, "stock");
         if (stock == nullptr || rule.find("files") != nullptr ||
-            stock->kind != YamlNode::Kind::list)
+            stock->kind != YamlNode::Kind::list || stock->items.empty())
             continue;  // the reader says what is wrong
         std::vector<YamlNode> files;
         for (const YamlNode& kind : stock->items)
-            add_files(kind, base_folder, files);
+            add_files(kind, base_folder, errors, missing, files);
         const YamlPlace place = stock->place;
         add_list(rule, "files", place).items = std::move(files);
     }
