@@ -76,7 +76,7 @@ TEST_CASE("assemble: a made bed is as large wherever in its file an object lies"
             "objects: [{name: wall, place: on_bottom, " +
             object + "}]}"};
         const Assembly assembled = assemble(disk.load("{file: poses.csv}", settings));
-        return (assembled.scene->bounds_max - assembled.scene->bounds_min).head<2>();
+        return (assembled.scene.bounds_max - assembled.scene.bounds_min).head<2>();
     };
     const Eigen::Vector2d near = size("file: wall.gltf");
     CHECK(near.maxCoeff() < 40.0);
