@@ -1,5 +1,6 @@
 """sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; and what
 `sonarsim status` says of a job."""
+import fcntl
 import json
 import shutil
 import unittest
@@ -165,6 +166,14 @@ class Status(Sandbox):
         self.assert_renders("--seed", "8", "--out", "seed")
         for folders, words in (((".",), "is not a dataset"), (("out", "seed"), "of another mission")):
             self.assert_refused(self.run_sonarsim("status", *folders), words)
+
+    def test_before_its_first_ping(self):
+        part = self.out / "journal.d" / "1-of-1.txt"
+        part.parent.mkdir(parents=True)
+        with open(part, "w") as journal:
+            fcntl.flock(journal, fcntl.LOCK_EX)
+            self.assert_refused(self.run_sonarsim("status", "out"), "a job has begun here")
+        self.assert_refused(self.run_sonarsim("status", "out"), "is not a dataset")
 
     def test_while_it_runs(self):
         self.write("path.csv", path_csv(200_000))

@@ -35,6 +35,10 @@ void add_dataset(const std::vector<fs::path>& folders, JobStatus& status) {
 
 JobStatus read_status(const std::vector<fs::path>& folders) {
     JobStatus status;
+    for (const fs::path& folder : folders) {
+        if (is_written(folder) && !fs::exists(folder / description_name) && !read_variants(folder))
+            throw InputError({folder.string()}, "a job has begun here, and no ping is ready yet");
+    }
     const auto json = read_variants(folders.at(0));
     if (!json) {
         add_dataset(folders, status);
