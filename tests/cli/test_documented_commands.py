@@ -39,7 +39,7 @@ FEW = f"--set trajectory.rate_hz=1 {TINY}"
 INSTEAD = {
     "./scripts/render.sh configs/tank_imaging.yaml": f"./scripts/render.sh configs/tank_imaging.yaml {FEW}",
     "./scripts/render.sh configs/detection.yaml":
-        f"./scripts/render.sh configs/detection.yaml --set variants=1 --set trajectory.rate_hz=0.5 {TINY}",
+        f"./scripts/render.sh configs/detection.yaml --set variants=5 --set trajectory.rate_hz=0.5 {TINY}",
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
         f"build/sonarsim validate hull.yaml {TINY} && build/sonarsim render hull.yaml {TINY}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
@@ -48,7 +48,7 @@ INSTEAD = {
     "build/sonarsim preview anchors.yaml": f"build/sonarsim preview anchors.yaml {FEW}",
     "build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png":
         f"build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png {FEW}",
-    "build/sonarsim render anchors.yaml": f"build/sonarsim render anchors.yaml --set variants=2 {FEW}",
+    "build/sonarsim render anchors.yaml": f"build/sonarsim render anchors.yaml --set variants=5 {FEW}",
     "sonarsim status OUT": "sonarsim status part1",
     'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep '
     'sensors.fls.range_max_m="6 10" seed="1 2"':
