@@ -12,13 +12,13 @@ MaskFrame frame_of(const View& view, const ResolutionCell& cell) {
 }
 
 void MaskWindow::sum_within(const CellReach& reach) {
-    const auto along = [&](int count, int stride, int reach) {
+    const auto along = [&](int count, int stride, int steps) {
         const std::vector<float> from = values;
-        for (int k = 0; reach > 0 && k < std::ssize(from); ++k) {
+        for (int k = 0; steps > 0 && k < std::ssize(from); ++k) {
             const int at = k / stride % count;
-            const int last = std::min(reach, count - 1 - at);
+            const int last = std::min(steps, count - 1 - at);
             float sum = 0.0F;
-            for (int d = std::max(-reach, -at); d <= last; ++d)
+            for (int d = std::max(-steps, -at); d <= last; ++d)
                 sum += from[k + d * stride];
             values[k] = sum;
         }

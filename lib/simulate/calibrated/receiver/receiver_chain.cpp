@@ -149,7 +149,7 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
 std::vector<std::uint16_t> companded(std::span<const float> powers,
                                      const ReceiverConfig& receiver) {
     const Law law = law_of(receiver);
-    const auto max_value = static_cast<float>((1 << receiver.bits) - 1);
+    const auto full_value = static_cast<float>((1 << receiver.bits) - 1);
     const auto offset = static_cast<float>(receiver.offset);
     const auto knee = static_cast<float>(receiver.knee);
     const bool has_knee = knee < 1.0F;
@@ -161,7 +161,7 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
         float value = law.value(std::min(natural_log(power), ln_max));
         if (has_knee) value = compressed(value, knee);
         const float above = std::max(value - offset, 0.0F);
-        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(max_value * above + 0.5F));
+        out[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(full_value * above + 0.5F));
     }
     return out;
 }

@@ -269,8 +269,8 @@ void Search::complete(const Run& run) {
         (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
         // Numbers from the base become numbers of the lattice; the base is a multiple of 8.
         const Ints8 is_larger = to_ints(size) >> 1;
-        const auto number = [&](int axis, std::int32_t base, Ints8 from_base) {
-            (halved(base, is_larger) + from_base).store(block_.cell[axis].data() + k);
+        const auto number = [&](int side, std::int32_t base, Ints8 from_base) {
+            (halved(base, is_larger) + from_base).store(block_.cell[side].data() + k);
         };
         number(first, p.base_first[of], Ints8::load(column_.data() + k));
         number(second, p.base_second[of], Ints8::load(row_.data() + k));
