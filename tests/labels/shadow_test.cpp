@@ -49,6 +49,32 @@ Scene rippled_floor(Uniform& draw) {
     return scene;
 }
 
+/// A side-scan sonar whose x axis points down, y to port.
+Sonar sonar_above_floor(double relative_l1) {
+    SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
+    config.name = "sss";
+    config.range_max_m = 12.0;
+    config.range_bins = 240;
+    config.elevation_deg = 8.0;
+    config.instrument.beam.width_deg = 1.5;
+    Sonar sonar = make_sonar(config, {relative_l1});
+    sonar.T_vehicle_sensor = Pose{};
+    return sonar;
+}
+
+/// A floor 3 m below this sonar.
+Scene floor_below() {
+    Scene scene = empty_scene();
+    add_quad(scene, {3, -30, -30}, {3, 30, -30}, {3, 30, 30}, {3, -30, 30},
+             add_material(scene, 0.4F));
+    return scene;
+}
+
+/// A plate on this floor, 6 m to port and 1 m high, `half` to either side of z.
+void add_plate(Scene& scene, float z, float half) {
+    add_quad(scene, {2, 6, z - half}, {3, 6, z - half}, {3, 6, z + half}, {2, 6, z + half}, 0);
+}
+
 }  // namespace
 
 TEST_CASE("labels: the shadows of a sea floor are those that rays through all surfaces find" *
@@ -129,25 +155,12 @@ TEST_CASE("labels: hidden surface before the first bin and behind the last cover
 }
 
 TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") {
-    // The sensor's x axis points down, y to port, the floor lies 3 m below. A plate 6 m to port, 1
-    // m high and 0.3 m long, hides the floor from sqrt(45) to sqrt(90) m: the main lobe is 0.06 m
-    // wide there, the traced view 0.47 m.
-    SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
-    config.name = "sss";
-    config.range_max_m = 12.0;
-    config.range_bins = 240;
-    config.elevation_deg = 8.0;
-    config.instrument.beam.width_deg = 1.5;
-    Sonar sonar = make_sonar(config, {0.02});
-    sonar.T_vehicle_sensor = Pose{};
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.4F);
-    add_quad(scene, {3, -30, -30}, {3, 30, -30}, {3, 30, 30}, {3, -30, 30}, m);
-    add_quad(scene, {2, 6, -0.3F}, {3, 6, -0.3F}, {3, 6, 0.3F}, {2, 6, 0.3F}, m);
-    Scene bare_floor = scene;
-    bare_floor.triangles.resize(2);
-    bare_floor.triangle_material.resize(2);
-    bare_floor.triangle_instance.resize(2);
+    // A plate 0.6 m long hides the floor from sqrt(45) to sqrt(90) m: the main lobe is 0.2 m wide
+    // there, the traced view 1.1 m.
+    const Sonar sonar = sonar_above_floor(0.02);
+    const Scene bare_floor = floor_below();
+    Scene scene = bare_floor;
+    add_plate(scene, 0.0F, 0.3F);
     for (const EngineKind type : {EngineKind::strips, EngineKind::rays}) {
         CAPTURE(type);
         const Labelled out = label(scene, sonar, Pose{}, type);
@@ -168,17 +181,8 @@ TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") 
 TEST_CASE("side-scan labels: a bin is in shadow where its echo falls by 10 dB") {
     // As above, with plates of drawn widths and places along the track: of many the borders of the
     // main lobe receive floor beside the shadow. Ratios within 1 dB of the limit are left out.
-    SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
-    config.name = "sss";
-    config.range_max_m = 12.0;
-    config.range_bins = 240;
-    config.elevation_deg = 8.0;
-    config.instrument.beam.width_deg = 1.5;
-    Sonar sonar = make_sonar(config, {0.01});
-    sonar.T_vehicle_sensor = Pose{};
-    Scene open_floor = empty_scene();
-    const std::uint32_t m = add_material(open_floor, 0.4F);
-    add_quad(open_floor, {3, -30, -30}, {3, 30, -30}, {3, 30, 30}, {3, -30, 30}, m);
+    const Sonar sonar = sonar_above_floor(0.01);
+    const Scene open_floor = floor_below();
     const Labelled open = label(open_floor, sonar, Pose{}, EngineKind::strips);
     Uniform draw(4);
     int dark = 0, bright = 0, wrong = 0;
@@ -186,7 +190,7 @@ TEST_CASE("side-scan labels: a bin is in shadow where its echo falls by 10 dB") 
         Scene scene = open_floor;
         const float half = draw.single(0.02, 0.3);
         const float z = draw.single(-0.3, 0.3);
-        add_quad(scene, {2, 6, z - half}, {3, 6, z - half}, {3, 6, z + half}, {2, 6, z + half}, m);
+        add_plate(scene, z, half);
         const auto engine = make_engine(scene, {});
         const TracedPing traced = trace(sonar, scene, *engine, Pose{}, 0);
         SceneObjects objects = group_objects(scene, {});

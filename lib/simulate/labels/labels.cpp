@@ -208,16 +208,17 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     const bool is_wide = view.energies_add && !echoes.cones.exist();
     std::vector<std::uint8_t> hidden_by_all;
     if (is_wide || request.shadow) hidden_by_all = hidden_bins(hidden.pieces, bins, view.beams);
+    std::vector<std::vector<std::uint8_t>> above;
+    const std::vector<std::uint32_t> ground = surfaces.ground();
+    for (int j = 0; is_wide && j < view.beams; ++j) {
+        above.push_back(
+            bins_above_shadow(surfaces.sums(), j, ground, own(hidden_by_all, labels, j)));
+    }
     const auto find = [&](ShadowFinder& finder, std::vector<std::uint8_t> covered,
                           std::vector<std::uint16_t>& shadow) {
         for (int j = 0; j < view.beams; ++j) {
-            std::vector<std::uint8_t> above;
-            if (is_wide) {
-                above = bins_above_shadow(surfaces.sums(), j, surfaces.ground(),
-                                          own(hidden_by_all, labels, j));
-            }
-            finder.find(j, own(covered, labels, j), is_wide ? above : surfaces.sums().occupied(j),
-                        own(shadow, labels, j));
+            finder.find(j, own(covered, labels, j),
+                        is_wide ? above[j] : surfaces.sums().occupied(j), own(shadow, labels, j));
         }
     };
     if (request.shadow) {

@@ -133,28 +133,34 @@ std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (hidden[i] == 0 && levels[i] > 0.0F) open.push_back(i);
     }
-    // The logarithm of the median of some open bins, and the middle of their numbers.
+    // The middle of the open bins [from, to), and the logarithm of their median.
     const auto level = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
         std::vector<float> values;
         for (std::ptrdiff_t k = from; k < to; ++k)
             values.push_back(levels[open[static_cast<std::size_t>(k)]]);
         const auto middle = values.begin() + (to - from) / 2;
         std::nth_element(values.begin(), middle, values.end());
-        return std::pair(logarithm(static_cast<double>(*middle)),
-                         static_cast<double>(open[static_cast<std::size_t>(from + to) / 2]));
+        return std::pair(static_cast<double>(open[static_cast<std::size_t>(from + to) / 2]),
+                         logarithm(static_cast<double>(*middle)));
     };
-    for (std::size_t i = 0; i < out.size() && !open.empty(); ++i) {
+    const std::ptrdiff_t count = std::ssize(open);
+    std::ptrdiff_t next = -1;  // the first open bin behind bin i
+    std::pair<double, double> near, far;
+    for (std::size_t i = 0; i < out.size() && count > 0; ++i) {
         if (occupied[i] == 0 || hidden[i] == 0) continue;
         const std::ptrdiff_t at = std::ranges::lower_bound(open, i) - open.begin();
-        const bool is_last = at == std::ssize(open);
-        const auto [before, left] = at == 0 ? level(at, std::min(nearest, std::ssize(open)))
-                                            : level(std::max<std::ptrdiff_t>(at - nearest, 0), at);
-        const auto [after, right] = is_last ? std::pair(before, left + 1.0)
-                                            : level(at, std::min(at + nearest, std::ssize(open)));
+        if (at != next) {
+            far = at < count ? level(at, std::min(at + nearest, count)) : far;
+            near = at > 0 ? level(std::max<std::ptrdiff_t>(at - nearest, 0), at) : far;
+            if (at == count) far = near;
+            next = at;
+        }
         const double share =
-            right > left ? std::clamp((static_cast<double>(i) - left) / (right - left), 0.0, 1.0)
-                         : 0.0;
-        const double ground_level = exponential(before + share * (after - before));
+            far.first > near.first
+                ? std::clamp((static_cast<double>(i) - near.first) / (far.first - near.first), 0.0,
+                             1.0)
+                : 0.0;
+        const double ground_level = exponential(near.second + share * (far.second - near.second));
         out[i] = static_cast<double>(echoes[i]) >= shadow_below * ground_level ? 1 : 0;
     }
     return out;

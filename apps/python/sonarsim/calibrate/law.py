@@ -9,8 +9,8 @@ from .patches import Patches
 from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, bootstrap
 
 MIN_PATCHES, MIN_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
-MAX_ZEROS = 0.02               # share of values at a place that a logarithm may cut off; their variance is known
-MIN_ERROR = 0.015             # that finite patches, their trend and the steps of the values leave; by 200 draws
+MAX_ZEROS = 0.02                # share of values at a place that a logarithm may cut off; their variance is known
+MIN_ERROR = 0.015               # that finite patches, their trend and the steps of the values leave; by 200 draws
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MAX_CUT_OFF = 5e-4
 MAX_SKEWNESS, MIN_GAMMA = 0.1, 0.08  # speckle of a smaller gamma would not be seen: it is the noise of a camera

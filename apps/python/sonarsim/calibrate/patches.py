@@ -4,8 +4,8 @@ import numpy as np
 from ..compare.images import Grid
 from .statistics import LAGS
 
-MAX_AT_AN_END = 0.003      # share of a patch's values at an end of the scale, which bias its moments
-MIN_MEAN_VALUE = 6.0      # smaller values are too coarse for the logarithm
+MAX_AT_AN_END = 0.003       # share of a patch's values at an end of the scale, which bias its moments
+MIN_MEAN_VALUE = 6.0        # smaller values are too coarse for the logarithm
 
 
 class Patches:

@@ -4,7 +4,7 @@ import dataclasses
 import numpy as np
 from scipy import sparse
 
-MIN_POWER = 1e-16         # -160 dB
+MIN_POWER = 1e-16          # -160 dB
 MAX_WEIGHTS = 1 << 22      # held at a time
 
 

@@ -13,7 +13,7 @@ from .stand_out import Greys
 
 Image.MAX_IMAGE_PIXELS = MAX_PIXELS
 TRIES = 20          # places that are drawn for each crop of the bed
-MIN_LIT = 0.98    # share of its pixels within the view
+MIN_IN_VIEW = 0.98    # share of its pixels within the view
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
 
 
@@ -92,7 +92,7 @@ def crops_of(picture, pixels, objects, boxes, options):
             middle = [low + drawn.random() * (high - low) for low, high in zip((0, 0), image.size)]
             frame = frame_of(middle, sides)
             inside = lit[max(0, round(frame[2])):round(frame[3]), max(0, round(frame[0])):round(frame[1])]
-            is_bed = (inside.sum() >= MIN_LIT * sides[0] * sides[1] and
+            is_bed = (inside.sum() >= MIN_IN_VIEW * sides[0] * sides[1] and
                       not any(runs.cut_box(box, frame) for box in boxes))
             if is_bed and add(f"bed-{number}", middle, []):
                 break
