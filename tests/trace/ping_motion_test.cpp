@@ -87,3 +87,48 @@ TEST_CASE("ping motion: surface goes to the beam that receives it") {
         CHECK(sample.normal.dot(sample.position) == test::approx(-75.0F).epsilon(1e-4));
     }
 }
+
+TEST_CASE("ping motion: surface that the motion turns across a border is cut there") {
+    // Beams of 6 degrees, each filled by one footprint, and a turn of `share` of a beam: beam j
+    // holds 1 - share of its own footprint's area and `share` of the next one's. The areas of a
+    // wedge's parts are those of a trapezoid, and their centroids together are its own.
+    const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
+    for (const auto& [share, wedge] : {std::pair(0.5F, 0.0F), {0.25F, 0.0F}, {0.25F, 0.4F}}) {
+        Samples samples;
+        samples.beam_begin = {0};
+        for (int j = 0; j < 10; ++j) {
+            const Eigen::Vector3f ahead =
+                direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
+            const Eigen::Vector3f across(-ahead.y(), ahead.x(), 0.0F);
+            samples.items.push_back(patch_of(75.0F * ahead, -ahead,
+                                             75.0F * radians(3.0F) * across,
+                                             {0.0F, 0.0F, 0.1F}));
+            samples.items.back().area_m2 = 2.0F;
+            samples.items.back().wedge = wedge;
+            samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
+        }
+        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0 * share)}), view, samples);
+        // The low side of a wedge is the shorter one, and its centroid lies beyond the middle.
+        for (int j = 0; j < 9; ++j) {
+            REQUIRE(samples.beam(j).size() == 2);
+            const auto& [own, next] = std::pair(samples.beam(j)[0], samples.beam(j)[1]);
+            if (wedge == 0.0F) {
+                CHECK(next.area_m2 == test::approx(2.0F * share).epsilon(0.01));
+                const auto azimuth = std::atan2(next.position.y(), next.position.x());
+                CHECK(azimuth == test::approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0)))
+                                     .epsilon(0.01));
+            }
+            CHECK(beam_of(view, own.position) == j);
+            CHECK(beam_of(view, next.position) == j);
+        }
+        for (int j = 1; j < 9; ++j) {  // the parts of one footprint
+            const Sample& part = samples.beam(j)[0];
+            const Sample& rest = samples.beam(j - 1)[1];
+            CHECK(part.area_m2 + rest.area_m2 == test::approx(2.0F).epsilon(1e-5));
+            const Eigen::Vector3f both =
+                (part.area_m2 * part.position + rest.area_m2 * rest.position) / 2.0F;
+            const auto middle = std::atan2(both.y(), both.x());
+            CHECK(std::fabs(middle - radians(-27.0 + 6.0 * (j - share))) < 2e-4);
+        }
+    }
+}

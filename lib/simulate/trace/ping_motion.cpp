@@ -1,5 +1,6 @@
 #include "simulate/trace/ping_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -44,11 +45,49 @@ Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     return out;
 }
 
-/// The beam of a fan by azimuth alone; -1 outside.
-int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
+/// The azimuth of a point, in beams from the first border of a fan.
+double beams_from_border(const View& view, const Eigen::Vector3f& p) {
     const double azimuth = arctan2(static_cast<double>(p.y()), static_cast<double>(p.x()));
-    const double beam = std::floor((azimuth / view.azimuth_rad + 0.5) * view.beams);
-    return beam >= 0.0 && beam < view.beams ? static_cast<int>(beam) : -1;
+    return (azimuth / view.azimuth_rad + 0.5) * view.beams;
+}
+
+/// The part of a footprint from `low` to `high` along edge_u, which extends from -1 to 1.
+Sample part_of(const Sample& sample, double low, double high) {
+    const auto middle = static_cast<float>(0.5 * (low + high));
+    const auto share = static_cast<float>(0.5 * (high - low));
+    const float longer = 1.0F + sample.wedge * middle;  // edge_v, over its mean
+    Sample part = sample;
+    part.edge_u *= share;
+    part.edge_v *= longer;
+    part.area_m2 *= share * longer;
+    part.wedge *= share / longer;
+    part.position +=
+        (middle - sample.wedge / 3.0F) * sample.edge_u + part.wedge / 3.0F * part.edge_u;
+    return part;
+}
+
+/// Calls `add(beam, part)` for the parts of a footprint between the borders of a fan's beams, by
+/// azimuth alone. Engines trace columns within a beam, which the motion turns across its borders:
+/// as a whole, a column would give its beam the ranges of a direction up to half a beam off.
+/// Where energies add, a footprint may cover many beams and is not cut.
+template <class Add>
+void for_each_beam(const View& view, const Sample& sample, Add add) {
+    constexpr double sliver = 0.1;  // of a beam: as far as footprints may extend into another one
+    const Eigen::Vector3f& p = sample.position;
+    const double place = beams_from_border(view, p);
+    const float turned = (p.x() * sample.edge_u.y() - p.y() * sample.edge_u.x()) /
+                         (p.x() * p.x() + p.y() * p.y());
+    const double along_u = turned * view.beams / view.azimuth_rad;
+    const double half = std::fabs(along_u);
+    const double first = std::floor(place - half + sliver);
+    const double last = std::floor(place + half - sliver);
+    if (view.energies_add || !(last > first)) return add(std::floor(place), sample);
+    for (double beam = first; beam <= last; ++beam) {
+        const double low = beam > first ? (beam - place) / along_u : std::copysign(1.0, -along_u);
+        const double high =
+            beam < last ? (beam + 1.0 - place) / along_u : std::copysign(1.0, along_u);
+        add(beam, part_of(sample, std::min(low, high), std::max(low, high)));
+    }
 }
 
 /// Sorts the visible surface of a fan into the beams of its azimuths.
@@ -56,9 +95,17 @@ void sort_into_beams(const View& view, Samples& samples) {
     if (view.shape != ViewShape::fan) return;
     std::vector<std::vector<Sample>> beam_samples(view.beams);
     std::vector<Sample> outside;
+    const bool full_turn = is_full_turn(view);
     for (const Sample& sample : samples.items) {
-        const int beam = kind_of(sample.kind).hides ? beam_by_azimuth(view, sample.position) : -1;
-        (beam < 0 ? outside : beam_samples[beam]).push_back(sample);
+        if (!kind_of(sample.kind).hides) {
+            outside.push_back(sample);
+            continue;
+        }
+        for_each_beam(view, sample, [&](double beam, const Sample& part) {
+            if (full_turn) beam -= view.beams * std::floor(beam / view.beams);
+            const bool in_view = beam >= 0.0 && beam < view.beams;
+            (in_view ? beam_samples[static_cast<std::size_t>(beam)] : outside).push_back(part);
+        });
     }
     samples.items.clear();
     for (int j = 0; j < view.beams; ++j) {
