@@ -60,19 +60,25 @@ TEST_CASE("bottom: a swath that is faint at nadir has its first return there") {
 TEST_CASE("bottom: a swath of detected samples has its first return behind the ring-down") {
     // Amplitudes: the ring-down falls by a factor e in 4 bins, water and a bed that is 3 to 20
     // times as bright and brightens within 100 bins, both with a variation of 0.25 as the largest
-    // of nine samples has it; the bed begins at a drawn bin or is out of range.
+    // of nine samples has it; the bed begins at a drawn bin or is out of range. Before the bed, in
+    // half of the columns, a thing in the water that is up to four times as bright.
     std::mt19937 random(9);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     int wrong = 0;
     int found = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        const int begin = trial % 10 == 0 ? 1400 : 30 + static_cast<int>(900.0 * unit(random));
+        const int begin = trial % 10 == 0 ? 1400 : 40 + static_cast<int>(900.0 * unit(random));
         const double bed = 3.0 * std::pow(20.0 / 3.0, unit(random));
+        const bool has_thing = trial % 10 > 0 && begin > 250 && unit(random) < 0.5;
+        const int thing = 60 + static_cast<int>((begin - 220) * unit(random));
+        const int length = has_thing ? 5 + static_cast<int>(40.0 * unit(random)) : 0;
+        const double echo = bed * (1.0 + 3.0 * unit(random));
         std::vector<float> column(1400);
         for (int i = 0; i < 1400; ++i) {
             const double slope = std::clamp((i - begin) / 100.0, 0.0, 1.0);
-            const double mean = 1e3 * std::exp(-i / 4.0) + (i < begin ? 1.0 : bed * (1.0 + slope));
+            const double mean = 1e3 * std::exp(-i / 4.0) + (i < begin ? 1.0 : bed * (1.0 + slope)) +
+                                (thing <= i && i < thing + length ? echo : 0.0);
             column[i] = static_cast<float>(mean * std::exp(0.25 * normal(random)));
         }
         const std::optional<int> first = first_return_of_swath(column);

@@ -97,11 +97,9 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
         Samples samples;
         samples.beam_begin = {0};
         for (int j = 0; j < 10; ++j) {
-            const Eigen::Vector3f ahead =
-                direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
+            const Eigen::Vector3f ahead = direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
             const Eigen::Vector3f across(-ahead.y(), ahead.x(), 0.0F);
-            samples.items.push_back(patch_of(75.0F * ahead, -ahead,
-                                             75.0F * radians(3.0F) * across,
+            samples.items.push_back(patch_of(75.0F * ahead, -ahead, 75.0F * radians(3.0F) * across,
                                              {0.0F, 0.0F, 0.1F}));
             samples.items.back().area_m2 = 2.0F;
             samples.items.back().wedge = wedge;
@@ -115,8 +113,8 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
             if (wedge == 0.0F) {
                 CHECK(next.area_m2 == test::approx(2.0F * share).epsilon(0.01));
                 const auto azimuth = std::atan2(next.position.y(), next.position.x());
-                CHECK(azimuth == test::approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0)))
-                                     .epsilon(0.01));
+                CHECK(azimuth ==
+                      test::approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0))).epsilon(0.01));
             }
             CHECK(beam_of(view, own.position) == j);
             CHECK(beam_of(view, next.position) == j);

@@ -85,14 +85,41 @@ class Logarithms {
     }
 
     static constexpr double min_deviations = 5.0;
+    static constexpr double min_rise = 0.6931;  // to twice the value
 
   private:
-    static constexpr int independent = 3;       // bins of a running mean over three
-    static constexpr double min_rise = 0.6931;  // to twice the value
+    static constexpr int independent = 3;  // bins of a running mean over three
 
     std::vector<double> sum_, sum2_;
     double usual_;
 };
+
+/// A rise of a column: its steepest bin, and the mean logarithms before it and half way up.
+struct Rise {
+    int at, window;
+    double before, half_way;
+};
+
+/// The first rise from bin `begin` on.
+std::optional<Rise> first_rise(const Logarithms& logarithms, int begin, int window, int bins) {
+    const auto is_bottom = [&](int i, int bins_each) {
+        return logarithms.rise(i, bins_each) >= Logarithms::min_deviations;
+    };
+    // The wider windows find a bottom behind a thing just above it.
+    int first = begin;
+    while (first < bins && !is_bottom(first, window) &&
+           (first < 2 * window || !is_bottom(first, 2 * window)))
+        ++first;
+    if (first == bins) return std::nullopt;
+    if (!is_bottom(first, window)) window *= 2;
+    int steepest = first;
+    for (int i = first + 1; i < std::min(first + window, bins); ++i) {
+        if (logarithms.rise(i, window) > logarithms.rise(steepest, window)) steepest = i;
+    }
+    const double before = logarithms.mean(std::max(steepest - window, 0), steepest);
+    const double after = logarithms.mean(steepest, std::min(steepest + window, bins));
+    return Rise{steepest, window, before, 0.5 * (before + after)};
+}
 
 }  // namespace
 
@@ -107,30 +134,26 @@ std::optional<int> first_return(std::span<const float> column) {
 std::optional<int> first_return_of_swath(std::span<const float> column) {
     constexpr float min_share = 1e-3F;  // a share of the bed's level
     const int bins = static_cast<int>(column.size());
-    int window = std::max(8, bins / 64);
+    const int window = std::max(8, bins / 64);
     if (bins < window) return std::nullopt;
     const SmoothedColumn smoothed(column);
     const float floor = min_share * smoothed.level(0.1);
     if (!(floor > 0.0F)) return std::nullopt;
     const Logarithms logarithms(smoothed, bins, floor);
-    const auto is_bottom = [&](int i, int bins_each) {
-        return logarithms.rise(i, bins_each) >= Logarithms::min_deviations;
-    };
-    // The wider windows find a bottom behind a thing just above it.
-    int first = window / 2;
-    while (first < bins && !is_bottom(first, window) &&
-           (first < 2 * window || !is_bottom(first, 2 * window)))
-        ++first;
-    if (first == bins) return std::nullopt;
-    if (!is_bottom(first, window)) window *= 2;
-    int steepest = first;
-    for (int i = first + 1; i < std::min(first + window, bins); ++i) {
-        if (logarithms.rise(i, window) > logarithms.rise(steepest, window)) steepest = i;
+    std::optional<int> in_water;  // the first edge of a thing that ends before the bottom
+    for (int begin = window / 2; begin < bins;) {
+        const std::optional<Rise> rise = first_rise(logarithms, begin, window, bins);
+        if (!rise) break;
+        const int edge = smoothed.edge(static_cast<float>(exponential(rise->half_way)),
+                                       std::max(rise->at - rise->window / 2, 0));
+        const int behind = edge + 2 * window;
+        if (behind + 2 * window >= bins ||
+            logarithms.mean(behind, behind + 2 * window) >= rise->before + Logarithms::min_rise)
+            return edge;
+        in_water = in_water.value_or(edge);
+        begin = behind;
     }
-    const double middle = 0.5 * (logarithms.mean(std::max(steepest - window, 0), steepest) +
-                                 logarithms.mean(steepest, std::min(steepest + window, bins)));
-    return smoothed.edge(static_cast<float>(exponential(middle)),
-                         std::max(steepest - window / 2, 0));
+    return in_water;
 }
 
 }  // namespace sonarsim

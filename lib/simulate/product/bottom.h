@@ -17,8 +17,9 @@ std::optional<int> first_return(std::span<const float> column);
 /// the ring-down and noise, so that a share of the maximum does not tell. The logarithms of the
 /// running mean are compared in two windows that meet, each a 64th or a 32nd of the column: the
 /// bottom is the first rise to at least twice the value that exceeds five deviations of chance, and
-/// its edge lies half way up, in logarithms. A bottom in the first half window has no water before
-/// it.
+/// its edge lies half way up, in logarithms. A rise behind which the column falls back within two
+/// to four windows is of a thing in the water, and counts only if no other follows. A bottom in the
+/// first half window has no water before it.
 std::optional<int> first_return_of_swath(std::span<const float> column);
 
 }  // namespace sonarsim
