@@ -90,13 +90,18 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
         const auto x = static_cast<float>(r);
         const auto top = static_cast<float>(h);
         add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, 0);
+        // A wall and a box of the same front have the same shadow behind it.
+        if (k % 2 == 1) add_box(scene, {x, -0.3F, 0}, {x + 0.2F, 0.3F, top}, 0);
         const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
-                                 {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.3}});
+                                 {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.5}}, true);
         const ObjectInPing& wall = found.object(2);
         const double end_m = std::hypot(r * sonar_m / (sonar_m - h), sonar_m);
         const double bin_m = found.sonar.settings.view.bin_m();
         CHECK(std::fabs(found.shadow_end_m(2) - end_m) < 2.5 * bin_m);
         CHECK(wall.shadow.first_bin >= wall.range_first);
+        // Exact coverage by triangles finds the same bins, which have no other owner.
+        const auto exact = static_cast<double>(std::ranges::count(found.labels.shadow, 2));
+        CHECK(static_cast<double>(wall.shadow_bins) == test::approx(exact).epsilon(0.01));
         // From its upper edge to its lower corners.
         CHECK(wall.range_m > std::hypot(r, sonar_m - h));
         CHECK(wall.range_m < std::hypot(r, 0.3, sonar_m));

@@ -142,13 +142,12 @@ TEST_CASE("the settings hold the mission's own setting once, marked, and no need
         CHECK(setting.name != "leaf_m=0.04");
         CHECK(setting.name != "leaf_m=0.01");
     }
-    // Only rays can trace shared copies, which `auto` then takes.
+    // The octree does not know of copies.
     Assembly assembly = small_assembly(mission, 1);
     assembly.scene.shared_meshes.push_back({});
     assembly.scene.copies.push_back({0, 0, Eigen::Affine3d::Identity()});
     for (const Setting& setting : make_settings(mission, false)) {
-        CHECK(unsupported(setting, assembly).empty() ==
-              (setting.kind == EngineKind::rays || setting.kind == EngineKind::automatic));
+        CHECK(unsupported(setting, assembly).empty() == (setting.kind != EngineKind::octree));
     }
 }
 

@@ -1,4 +1,6 @@
+#include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
+#include "support/draws.h"
 #include "support/test.h"
 
 // Copies of shared meshes, and bodies that move.
@@ -115,5 +117,71 @@ TEST_CASE("copies: next to a body that moves both are met") {
         CHECK(before.instance == (y > 0.0 ? 1 : 0));
         CHECK(std::fabs(after.distance_m - (y > 0.0 ? 2.5F : 5.0F)) < 1e-3F);
         CHECK(after.instance == (y > 0.0 ? 2 : 0));
+    }
+}
+
+TEST_CASE("placed: strips see bodies and copies as the same surface among the scene's own") {
+    // Spheres and boxes at drawn places, between which there is shadow, before a wall: each as
+    // triangles of the scene, as a body and as a copy with a scale. Sums of area and of place by
+    // instance and beam agree to a share of the whole; triangles are sorted differently.
+    Draws draws(11);
+    const Eigen::Vector3d origin(4e6, 5e6, -100.0);
+    const View view{radians(70.0), radians(40.0), 0.2, 15.0, 128, 48, 0.03};
+    for (int trial = 0; trial < 4; ++trial) {
+        Scene own = empty_scene(origin);
+        add_quad(own, {12, -9, -9}, {12, 9, -9}, {12, 9, 9}, {12, -9, 9}, add_material(own, 1.0F));
+        Scene placed_scene = own;
+        std::vector<Pose> poses;
+        for (int k = 0; k < 6; ++k) {
+            Scene shape = empty_scene();
+            add_sphere(shape, {0, 0, 0}, 0.4F, 0, 24);
+            if (k % 3 == 0) add_box(shape, {-0.3F, -0.5F, -0.2F}, {0.3F, 0.5F, 0.9F}, 0);
+            const auto instance = static_cast<std::uint32_t>(own.instances.size());
+            const double scale = k % 2 == 0 ? 1.0 : 0.5 + 0.2 * k;
+            const Eigen::Affine3d T = placed(
+                origin + Eigen::Vector3d(6.0, 0.0, 0.0) + 3.0 * draws.in_ball().cast<double>(),
+                scale, 0.7 * k);
+            Eigen::Affine3d T_local = T;
+            T_local.translation() -= origin;
+            const auto first = static_cast<std::uint32_t>(own.vertices.size());
+            for (const Eigen::Vector3f& vertex : shape.vertices)
+                own.vertices.emplace_back((T_local * vertex.cast<double>()).cast<float>());
+            for (const TriangleCorners& t : shape.triangles) {
+                own.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+                own.triangle_material.push_back(0);
+                own.triangle_instance.push_back(instance);
+            }
+            for (Scene* scene : {&own, &placed_scene}) {
+                scene->instances.emplace_back("thing");
+                scene->instance_classes.emplace_back("");
+            }
+            const std::vector<std::uint32_t> materials(shape.triangles.size(), 0);
+            if (k % 2 == 0) {
+                placed_scene.bodies.push_back(
+                    {instance, shape.vertices, shape.triangles, materials});
+                poses.push_back({Eigen::Quaterniond(T.linear()), T.translation()});
+            } else {
+                placed_scene.copies.push_back(
+                    {static_cast<std::uint32_t>(placed_scene.shared_meshes.size()), instance, T});
+                placed_scene.shared_meshes.push_back({shape.vertices, shape.triangles, materials});
+            }
+        }
+        const auto sums = [&](const VisibilityEngine& engine) {
+            const Samples samples = engine.visible_surface(view, {{1, 0, 0, 0}, origin});
+            Eigen::ArrayXXd out = Eigen::ArrayXXd::Zero(view.beams, 4 * 7);
+            for (int j = 0; j < view.beams; ++j) {
+                for (const Sample& sample : samples.beam(j)) {
+                    const Eigen::Array3d at = sample.position.cast<double>().array();
+                    out.row(j).segment<3>(4 * sample.instance) += sample.area_m2 * at.transpose();
+                    out(j, 4 * sample.instance + 3) += sample.area_m2 * sample.height_m;
+                }
+            }
+            return out;
+        };
+        const EngineSettings strips{.type = EngineKind::automatic, .octree = {}};
+        const Eigen::ArrayXXd expected = sums(*make_engine(own, strips));
+        const Eigen::ArrayXXd found = sums(*make_engine(placed_scene, strips)->at(poses));
+        CHECK((found - expected).abs().sum() < 1e-3 * expected.abs().sum());
+        CHECK((expected.col(4 * 6 + 3) > 0.0).any());
     }
 }

@@ -64,9 +64,7 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const TimedPose& at = assembly.trajectory[pose];
     const SonarAtPose sonar(mission, assembly.sonars[id.sensor], pose);
     const Pose T_world_sensor = sensor_pose(*sonar, at.T_world_vehicle, pose);
-    std::vector<Pose> bodies = body_poses(assembly, at.t_s);
-    for (Pose& body : bodies)
-        body.translation -= scene.origin;
+    const std::vector<Pose> bodies = body_poses(assembly, at.t_s);
     const Caster placed = bodies.empty() ? caster : caster.moved(bodies);
     const double goal = mission.accuracy.relative_l1;
     const Reference truth = cast_reference(
@@ -104,7 +102,7 @@ std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
-    return "lower accuracy.relative_l1 to " + short_text(goal * goal / worst) +
+    return "lower accuracy.relative_l1 to " + short_text(std::max(goal * goal / worst, 1e-4)) +
            (mission.engine == EngineKind::automatic
                 ? ""
                 : ", or use the engine with the least error in `sonarsim report`");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "simulate/labels/sight_lines.h"
@@ -47,18 +48,24 @@ Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape)
 /// Follows the sight lines of a ping.
 class LineTracer {
   public:
-    LineTracer(const View& view, const SceneObjects& objects, const ObjectDirections& directions,
-               HiddenSurface::By by)
-        : objects_(objects),
+    LineTracer(const LineWidth& width, const SceneObjects& objects,
+               const ObjectDirections& directions, HiddenSurface::By by)
+        : width_(width),
+          objects_(objects),
           directions_(directions),
           all_(by == HiddenSurface::By::all),
-          range_max_m_(static_cast<float>(view.range_max_m)),
+          range_max_m_(static_cast<float>(width.view.range_max_m)),
           solid_angles_(objects.objects.size()) {}
 
     /// Counts a line as visible. True if wanted surface may lie behind it.
     bool see(const SightLine& line) {
         solid_angles_[owner_of(line)].visible += line.solid_angle;
         return is_wanted(line);
+    }
+
+    /// True if an object hides what lies behind a line, not background.
+    bool is_by_object(const SightLine& line) const {
+        return !objects_.is_background(owner_of(line));
     }
 
     /// True if wanted surface may lie behind a line.
@@ -97,7 +104,7 @@ class LineTracer {
         if (!(line.range_m < range_max_m_)) return false;
         if (is_shadow(line)) {
             // Hidden surface lies behind what hides it, however far its plane extends.
-            const float half_m = half_extent(line, line.range_m, met.normal);
+            const float half_m = half_extent(line, line.range_m, met.normal, width_);
             const float near_m = std::max(line.range_m - half_m, line.before_m);
             const float far_m = line.range_m + half_m;
             const float each =
@@ -118,10 +125,9 @@ class LineTracer {
     std::uint32_t owner_of(const SightLine& line) const {
         return objects_.object_of(line.sample->instance);
     }
-    bool is_shadow(const SightLine& line) const {
-        return all_ || !objects_.is_background(owner_of(line));
-    }
+    bool is_shadow(const SightLine& line) const { return all_ || is_by_object(line); }
 
+    const LineWidth& width_;
     const SceneObjects& objects_;
     const ObjectDirections& directions_;
     bool all_;  ///< background hides surface, too
@@ -131,13 +137,57 @@ class LineTracer {
     std::vector<HiddenPiece> pieces_;
 };
 
+/// The parts of lines. One line of a sample finds out how deep the surface behind it is, layer by
+/// layer; behind the sample of a line array, whether there is any, as most floors and walls have
+/// none.
+template <class Cast>
+std::vector<SightLine> divided_lines(std::span<const SightLine> whole, const LineWidth& width,
+                                     const LineTracer& tracer, Cast cast) {
+    const bool by_beams = width.cones.exist();
+    std::vector<LineParts> parts(whole.size());
+    std::vector<std::uint8_t> met_any(whole.size(), 0);
+    std::vector<SightLine> lines(whole.begin(), whole.end());
+    std::vector<std::size_t> number(whole.size());
+    std::iota(number.begin(), number.end(), std::size_t{0});
+    for (int layer = 0; layer < (by_beams ? 1 : max_surfaces_behind) && !lines.empty(); ++layer) {
+        const std::span<const Intersection> met = cast(lines);
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            SightLine& line = lines[k];
+            const bool is_met = std::isfinite(met[k].distance_m);
+            if (!is_met && (by_beams || layer > 0)) continue;
+            met_any[number[k]] = 1;
+            if (by_beams || tracer.is_by_object(line)) {
+                const LineParts these = parts_of(line, met[k], width);
+                LineParts& all = parts[number[k]];
+                all = {std::max(all.u, these.u), std::max(all.v, these.v)};
+            }
+            if (!is_met) continue;
+            line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
+            if (!tracer.is_wanted(line)) continue;
+            number[kept] = number[k];
+            lines[kept++] = line;
+        }
+        lines.resize(kept);
+    }
+    std::vector<SightLine> out;
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+        if (met_any[k] == 0) continue;
+        divide(
+            whole[k], parts[k], width,
+            [&](const SightLine& line) { return tracer.is_wanted(line); }, out);
+    }
+    return out;
+}
+
 }  // namespace
 
 HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by) {
-    LineTracer tracer(view, objects, directions, by);
+    const LineWidth width{echoes.cones, view.guards.joined, view};
+    LineTracer tracer(width, objects, directions, by);
     std::vector<Ray> rays;
     std::vector<Intersection> met;
     const auto cast = [&](std::span<const SightLine> lines) {
@@ -148,35 +198,16 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
                                 met);
     };
-    std::vector<SightLine> lines = sight_lines(
+    const std::vector<SightLine> whole = sight_lines(
         traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
-    std::vector<SightLine> narrow;
-    if (echoes.cones.exist()) {
-        // Nothing lies behind most floors and walls, so one line finds out before many are cast.
-        cast(lines);
-        const LineWidth width{echoes.cones, view.guards.joined};
-        std::vector<SightLine> wide;
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            if (!std::isfinite(met[k].distance_m)) continue;
-            if (is_narrow(lines[k], width)) {
-                met[narrow.size()] = met[k];
-                narrow.push_back(lines[k]);
-            } else {
-                wide.push_back(lines[k]);
-            }
-        }
-        tracer.begin(narrow);
-        tracer.advance(narrow, met);
-        lines = divided(wide, width, [&](const SightLine& line) { return tracer.is_wanted(line); });
-    }
+    std::vector<SightLine> lines = divided_lines(whole, width, tracer, [&](const auto& some) {
+        cast(some);
+        return std::span<const Intersection>(met);
+    });
     tracer.begin(lines);
-    for (int layer = 0; layer < max_surfaces_behind && !(lines.empty() && narrow.empty());
-         ++layer) {
+    for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
         cast(lines);
         tracer.advance(lines, met);
-        // Narrow lines have met their first surface already.
-        lines.insert(lines.end(), narrow.begin(), narrow.end());
-        narrow.clear();
     }
     return tracer.finish();
 }

@@ -15,6 +15,12 @@ namespace {
 // Surface that is seen edge-on covers all ranges; its extent is limited to this share of its range.
 constexpr float longest_half = 0.1F;
 
+constexpr float max_parts_by_beams = 64.0F;
+constexpr float max_parts_by_bins = 128.0F;
+
+// The surface behind a part is so many bins deep.
+constexpr float bins_of_part = 4.0F;
+
 /// The sight line behind a place of a sample.
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
                       int beam) {
@@ -29,23 +35,6 @@ SightLine line_behind(const Sample& sample, const Arrival& place, float share_u,
             .share_v = share_v,
             .beam = static_cast<std::uint32_t>(beam),
             .last_beam = static_cast<std::uint32_t>(beam)};
-}
-
-/// The number of parts, at least 1, of an edge across the line of sight: each spans the width of
-/// a line, and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of
-/// shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
-/// Chosen there.
-int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const LineWidth& width) {
-    constexpr float along_beam = 2.0F;
-    constexpr float max_parts = 64.0F;
-    // In sines the middle beam of a fan of 130 degrees is 1.25 mean widths wide.
-    constexpr float wider = 0.3F;
-    const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
-    const float beam_m = 0.5F * line.before_m * width.cones.mean_width();
-    const float parts = std::max(std::fabs(across.y()) / static_cast<float>(width.beams),
-                                 across.norm() / along_beam) /
-                        beam_m;
-    return static_cast<int>(std::ceil(std::clamp(parts - wider, 1.0F, max_parts)));
 }
 
 /// Makes a line cover the beams whose middles its part of the footprint covers.
@@ -63,11 +52,48 @@ void cover_beams(SightLine& line, const ConeBeams& cones) {
     if (last >= 0) line.last_beam = static_cast<std::uint32_t>(last);
 }
 
+/// The parts of an edge of a line array's sample across the line of sight: each spans the width of
+/// a line, and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of
+/// shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
+/// Chosen there.
+float parts_of_beams(const Eigen::Vector3f& half_edge, const SightLine& line,
+                     const LineWidth& width) {
+    constexpr float along_beam = 2.0F;
+    // In sines the middle beam of a fan of 130 degrees is 1.25 mean widths wide.
+    constexpr float wider = 0.3F;
+    const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
+    const float beam_m = 0.5F * line.before_m * width.cones.mean_width();
+    const float parts = std::max(std::fabs(across.y()) / static_cast<float>(width.beams),
+                                 across.norm() / along_beam) /
+                        beam_m;
+    return parts - wider;
+}
+
 /// The change of a plane's range along the half edge of the footprint in front of it.
 float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
                   const Eigen::Vector3f& normal, float range_m) {
     const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
     return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
+}
+
+/// The parts of an edge of another sample: the surface behind each is four bins deep, or the edge
+/// spans two beams where nothing is met behind the sample's middle. The plane n . x = h is met at
+/// the range r = b h / (n . (p + s e)), b that of the sample, so |dr / ds| = r^2 |n . e| / (b h).
+float parts_of_bins(const Eigen::Vector3f& half_edge, const SightLine& line,
+                    const Intersection& met, const View& view) {
+    if (std::isfinite(met.distance_m)) {
+        const float h = (line.range_m + met.distance_m) * met.normal.dot(line.direction);
+        const float middle = line.before_m * met.normal.dot(line.direction);
+        const float along = met.normal.dot(half_edge);
+        const float nearest = std::max(std::fabs(middle) - std::fabs(along), 0.0F);
+        const float farthest =
+            std::min(line.before_m * std::fabs(h) / nearest, static_cast<float>(view.range_max_m));
+        return farthest * farthest * std::fabs(along / (line.before_m * h)) /
+               (bins_of_part * static_cast<float>(view.bin_m()));
+    }
+    const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
+    const auto beam_rad = static_cast<float>(view.azimuth_rad / view.beams);
+    return across.norm() / (beam_rad * line.before_m);
 }
 
 }  // namespace
@@ -101,46 +127,56 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
     return lines;
 }
 
-bool is_narrow(const SightLine& line, const LineWidth& width) {
-    return parts_of(line.sample->edge_u, line, width) == 1 &&
-           parts_of(line.sample->edge_v, line, width) == 1;
+LineParts parts_of(const SightLine& line, const Intersection& met, const LineWidth& width) {
+    const bool by_beams = width.cones.exist();
+    const auto count = [&](const Eigen::Vector3f& edge) {
+        const float number = by_beams ? parts_of_beams(edge, line, width)
+                                      : parts_of_bins(edge, line, met, width.view);
+        // The number of a surface that is seen edge-on may be NaN.
+        const float most = by_beams ? max_parts_by_beams : max_parts_by_bins;
+        return static_cast<int>(std::ceil(number > 1.0F ? std::min(number, most) : 1.0F));
+    };
+    return {count(line.sample->edge_u), count(line.sample->edge_v)};
 }
 
-std::vector<SightLine> divided(std::span<const SightLine> lines, const LineWidth& width,
-                               const KeepLine& keep) {
-    std::vector<SightLine> out;
-    for (const SightLine& line : lines) {
-        const Sample& sample = *line.sample;
-        const int rows = parts_of(sample.edge_u, line, width);
-        const int columns = parts_of(sample.edge_v, line, width);
-        const float share_u = 1.0F / static_cast<float>(rows);
-        const float share_v = 1.0F / static_cast<float>(columns);
-        const Eigen::Vector3f middle = middle_of(sample, rows);
-        for (int i = 0; i < rows; ++i) {
-            const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
-            const float wider = 1.0F + sample.wedge * u;
-            for (int j = 0; j < columns; ++j) {
-                const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
-                const Arrival place =
-                    arrival_of(middle + u * sample.edge_u + v * wider * sample.edge_v);
-                const int beam = width.cones.beam(place.direction.y());
-                if (beam < 0) continue;
-                SightLine part = line_behind(sample, place, share_u, share_v * wider, beam);
-                cover_beams(part, width.cones);
-                if (keep(part)) out.push_back(part);
-            }
+void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,
+            const KeepLine& keep, std::vector<SightLine>& out) {
+    if (parts.u == 1 && parts.v == 1) {
+        out.push_back(line);
+        return;
+    }
+    const bool by_beams = width.cones.exist();
+    const Sample& sample = *line.sample;
+    const float share_u = 1.0F / static_cast<float>(parts.u);
+    const float share_v = 1.0F / static_cast<float>(parts.v);
+    const Eigen::Vector3f middle = middle_of(sample, parts.u);
+    for (int i = 0; i < parts.u; ++i) {
+        const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
+        const float wider = 1.0F + sample.wedge * u;
+        for (int j = 0; j < parts.v; ++j) {
+            const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
+            const Arrival place =
+                arrival_of(middle + u * sample.edge_u + v * wider * sample.edge_v);
+            const int beam =
+                by_beams ? width.cones.beam(place.direction.y()) : static_cast<int>(line.beam);
+            if (beam < 0) continue;
+            SightLine part = line_behind(sample, place, share_u, share_v * wider, beam);
+            if (by_beams) cover_beams(part, width.cones);
+            if (keep(part)) out.push_back(part);
         }
     }
-    return out;
 }
 
-float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal) {
+float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal,
+                  const LineWidth& width) {
     const Sample& sample = *line.sample;
     const auto along = [&](const Eigen::Vector3f& edge) {
         return range_along(edge, line.direction, line.before_m, normal, range_m);
     };
     const float half = line.share_u * along(sample.edge_u) + line.share_v * along(sample.edge_v);
-    const float max_half = longest_half * range_m;
+    const float max_half = width.cones.exist()
+                               ? longest_half * range_m
+                               : bins_of_part * static_cast<float>(width.view.bin_m());
     // The quotient may be NaN for a plane that is seen edge-on.
     return half < max_half ? half : max_half;
 }

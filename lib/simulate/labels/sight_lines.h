@@ -31,22 +31,30 @@ using KeepLine = std::function<bool(const SightLine&)>;
 std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
                                    const KeepLine& keep);
 
-/// The width of sight lines of a line array.
+/// The width of sight lines: of a line array, so many of its beams, which it does not resolve; else
+/// that at which the surface that they meet is a few bins deep.
 struct LineWidth {
     const ConeBeams& cones;
-    int beams;  ///< so many beams, which the array does not resolve
+    int beams;
+    const View& view;
 };
 
-/// True if the footprint of a line's sample is no wider.
-bool is_narrow(const SightLine& line, const LineWidth& width);
+/// The numbers of parts into which the edges of a line's sample are divided, as a sample may span
+/// many beams and much of the elevation.
+struct LineParts {
+    int u = 1, v = 1;
+};
 
-/// Parts of the sight lines of a line array, since a sample may span many beams and much of the
-/// elevation.
-std::vector<SightLine> divided(std::span<const SightLine> lines, const LineWidth& width,
-                               const KeepLine& keep);
+/// The parts for a line that meets this surface, or none.
+LineParts parts_of(const SightLine& line, const Intersection& met, const LineWidth& width);
+
+/// Appends the parts of a line that has not left its sample.
+void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,
+            const KeepLine& keep, std::vector<SightLine>& out);
 
 /// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
-/// normal.
-float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal);
+/// normal. At most four bins if the width divides lines by bins.
+float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal,
+                  const LineWidth& width);
 
 }  // namespace sonarsim

@@ -58,6 +58,7 @@ struct Caster::Trees {
     };
 
     RTCDevice device = nullptr;
+    Eigen::Vector3d origin;  ///< the scene's
     std::vector<EmbreeTree> trees;
     std::vector<Facet> facets;
     std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
@@ -149,11 +150,12 @@ struct Caster::PlacedTree {
         first_copy = meshes.size();
     }
 
-    void add_bodies(const Trees& trees, std::span<const Pose> T_local_body) {
-        for (std::size_t k = 0; k < T_local_body.size(); ++k) {
+    void add_bodies(const Trees& trees, std::span<const Pose> T_world_body) {
+        for (std::size_t k = 0; k < T_world_body.size(); ++k) {
+            const Pose& pose = T_world_body[k];
             Eigen::Matrix<float, 3, 4> transform;
-            transform << T_local_body[k].rotation.toRotationMatrix().cast<float>(),
-                T_local_body[k].translation.cast<float>();
+            transform << pose.rotation.toRotationMatrix().cast<float>(),
+                (pose.translation - trees.origin).cast<float>();
             add(trees, static_cast<std::uint32_t>(1 + k), transform, false);
         }
         first_copy = meshes.size();
@@ -231,6 +233,7 @@ std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {
     // Pinned to AVX2, since another instruction set may order equal distances differently.
     made->device = rtcNewDevice("isa=avx2,max_isa=avx2");
     check_embree(made->device, "starting");
+    made->origin = scene.origin;
     std::size_t facets = scene.triangles.size();
     for (const Body& body : scene.bodies)
         facets += body.triangles.size();
@@ -263,19 +266,30 @@ std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {
     return made;
 }
 
-Caster Caster::moved(std::span<const Pose> T_local_body) const {
+Caster Caster::moved(std::span<const Pose> T_world_body) const {
     // Copies are many and at rest, so the first tree holds them and is kept; bodies get their own
     // tree. Without copies one tree holds everything, which is faster to trace.
     const bool has_copies = !trees_->copies.empty();
     auto placed_tree =
         std::make_shared<PlacedTree>(*trees_, has_copies ? placed_trees_.front()->end : 0);
     if (!has_copies) placed_tree->add_own(*trees_);
-    placed_tree->add_bodies(*trees_, T_local_body);
+    placed_tree->add_bodies(*trees_, T_world_body);
     placed_tree->finish(*trees_);
     std::vector<std::shared_ptr<const PlacedTree>> placed_trees;
     if (has_copies) placed_trees.push_back(placed_trees_.front());
     placed_trees.push_back(std::move(placed_tree));
-    return {trees_, std::move(placed_trees)};
+    Caster out(trees_, std::move(placed_trees));
+    out.T_world_body_.assign(T_world_body.begin(), T_world_body.end());
+    return out;
+}
+
+std::size_t Caster::placed_triangles() const {
+    std::size_t count = 0;
+    for (std::size_t tree = 0; tree <= trees_->bodies; ++tree)
+        count += trees_->size(tree);
+    for (const Trees::PlacedCopy& copy : trees_->copies)
+        count += trees_->size(copy.tree);
+    return count;
 }
 
 Facet Caster::placed_facet(std::uint32_t index) const {

@@ -30,8 +30,11 @@ class Caster {
     Caster& operator=(const Caster&) = delete;
 
     /// The same trees with the bodies at these poses. The time grows with the number of bodies, but
-    /// not with their triangles or with copies of shared meshes. Scene-local frame.
-    Caster moved(std::span<const Pose> T_local_body) const;
+    /// not with their triangles or with copies of shared meshes. World.
+    Caster moved(std::span<const Pose> T_world_body) const;
+
+    /// The poses of Scene::bodies that moved() was given; empty without them. World.
+    std::span<const Pose> body_poses() const { return T_world_body_; }
 
     /// Rays from one point: `facets[i]` is the facet that direction i meets within `reach_m`, or
     /// `nothing`. Neighbours in the list should be neighbours in space, or else `spread` wide.
@@ -66,6 +69,9 @@ class Caster {
         return index < still_ ? facets_[index] : placed_facet(index);
     }
 
+    /// The number of triangles of the scene with its bodies and all copies.
+    std::size_t placed_triangles() const;
+
     /// Prefetches a facet that is needed soon; `nothing` is allowed.
     void prefetch(std::uint32_t index) const {
         if (index < still_) __builtin_prefetch(&facets_[index]);
@@ -86,6 +92,7 @@ class Caster {
     /// Trees of placed objects. Empty: the scene has only its own triangles; one: everything; two:
     /// objects at rest with the copies, then the bodies.
     std::vector<std::shared_ptr<const PlacedTree>> placed_trees_;
+    std::vector<Pose> T_world_body_;
     /// Facets of the scene's own triangles, then of each other tree.
     const Facet* facets_ = nullptr;
     std::uint32_t still_ = 0;    ///< number of the scene's own triangles

@@ -17,23 +17,22 @@ std::uint64_t spread_bits(std::uint64_t x) {
     return x;
 }
 
-Eigen::Vector3f centre_of(const Scene& scene, const std::array<std::uint32_t, 3>& triangle) {
-    return (scene.vertices[triangle[0]] + scene.vertices[triangle[1]] +
-            scene.vertices[triangle[2]]) /
+Eigen::Vector3f centre_of(const MeshView& mesh, const TriangleCorners& triangle) {
+    return (mesh.vertices[triangle[0]] + mesh.vertices[triangle[1]] + mesh.vertices[triangle[2]]) /
            3.0F;
 }
 
-/// Indices of the triangles along the Morton curve; triangles with equal codes keep the scene's
+/// Indices of the triangles along the Morton curve; triangles with equal codes keep the mesh's
 /// order.
-std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
+std::vector<std::uint32_t> along_morton_curve(const MeshView& mesh) {
     Eigen::AlignedBox3f box;
-    for (const auto& triangle : scene.triangles)
-        box.extend(centre_of(scene, triangle));
-    const float length = scene.triangles.empty() ? 0.0F : box.sizes().maxCoeff();
+    for (const auto& triangle : mesh.triangles)
+        box.extend(centre_of(mesh, triangle));
+    const float length = mesh.triangles.empty() ? 0.0F : box.sizes().maxCoeff();
     const float cells = length > 0.0F ? static_cast<float>(0x1fffff) / length : 0.0F;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(scene.triangles.size());
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(mesh.triangles.size());
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
-        const Eigen::Vector3f at = (centre_of(scene, scene.triangles[i]) - box.min()) * cells;
+        const Eigen::Vector3f at = (centre_of(mesh, mesh.triangles[i]) - box.min()) * cells;
         keys[i] = {spread_bits(static_cast<std::uint64_t>(at.x())) |
                        spread_bits(static_cast<std::uint64_t>(at.y())) << 1U |
                        spread_bits(static_cast<std::uint64_t>(at.z())) << 2U,
@@ -46,50 +45,51 @@ std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
 }
 
 /// Appends a cluster of the given triangles.
-void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, ClusterMesh& mesh) {
+void add_cluster(const MeshView& from, std::span<const std::uint32_t> triangles,
+                 ClusterMesh& mesh) {
     std::vector<TriangleCorners> all;
     std::vector<std::uint32_t> used;
     for (const std::uint32_t triangle : triangles) {
-        const TriangleCorners& corners = all.emplace_back(scene.triangles[triangle]);
+        const TriangleCorners& corners = all.emplace_back(from.triangles[triangle]);
         used.insert(used.end(), corners.begin(), corners.end());
     }
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
 
-    TriangleCluster cluster{ball_around(scene.vertices, all)};
+    TriangleCluster cluster{ball_around(from.vertices, all)};
     cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     cluster.vertices = static_cast<std::uint32_t>(used.size());
     cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
     cluster.triangles = static_cast<std::uint32_t>(triangles.size());
     for (const std::uint32_t vertex : used)
-        mesh.vertices.push_back(scene.vertices[vertex]);
+        mesh.vertices.push_back(from.vertices[vertex]);
     for (const std::uint32_t triangle : triangles) {
-        const TriangleCorners& corners = scene.triangles[triangle];
+        const TriangleCorners& corners = from.triangles[triangle];
         std::array<std::uint8_t, 3> local{};
         for (int k = 0; k < 3; ++k) {
             const auto at = std::ranges::lower_bound(used, corners[k]);
             local[k] = static_cast<std::uint8_t>(at - used.begin());
         }
         mesh.corners.push_back(local);
-        const Eigen::Vector3d twice = cross_of(scene.vertices, corners);
-        mesh.facets.push_back({twice.normalized().cast<float>(), scene.triangle_material[triangle],
-                               scene.triangle_instance[triangle],
-                               static_cast<float>(0.5 * twice.norm())});
+        const Eigen::Vector3d twice = cross_of(from.vertices, corners);
+        const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
+        mesh.facets.push_back({twice.normalized().cast<float>(), from.materials[triangle],
+                               from.instances[owner], static_cast<float>(0.5 * twice.norm())});
     }
     mesh.clusters.push_back(cluster);
 }
 
 }  // namespace
 
-ClusterMesh make_clusters(const Scene& scene) {
+ClusterMesh make_clusters(const MeshView& from) {
     ClusterMesh mesh;
-    const std::vector<std::uint32_t> order = along_morton_curve(scene);
+    const std::vector<std::uint32_t> order = along_morton_curve(from);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
     for (std::size_t first = 0; first < order.size(); first += ClusterMesh::max_triangles) {
         const std::size_t count =
             std::min<std::size_t>(ClusterMesh::max_triangles, order.size() - first);
-        add_cluster(scene, std::span(order).subspan(first, count), mesh);
+        add_cluster(from, std::span(order).subspan(first, count), mesh);
     }
     return mesh;
 }

@@ -23,7 +23,7 @@ struct ClusterFacet {
     float area_m2;
 };
 
-/// Up to 64 neighbouring triangles, with a ball around them, scene-local.
+/// Up to 64 neighbouring triangles, with a ball around them.
 struct TriangleCluster : Ball {
     std::uint32_t first_vertex = 0;
     std::uint32_t vertices = 0;
@@ -31,18 +31,25 @@ struct TriangleCluster : Ball {
     std::uint32_t triangles = 0;
 };
 
-/// A scene's triangles, sorted along a Morton curve through their centres
+/// A mesh's triangles, sorted along a Morton curve through their centres
 /// and divided into clusters. Corner indices count from the cluster's first vertex.
 struct ClusterMesh {
     static constexpr std::uint32_t max_triangles = 64;
 
     std::vector<TriangleCluster> clusters;
-    std::vector<Eigen::Vector3f> vertices;  ///< scene-local, m
+    std::vector<Eigen::Vector3f> vertices;  ///< m
     std::vector<std::array<std::uint8_t, 3>> corners;
     std::vector<ClusterFacet> facets;
 };
 
-ClusterMesh make_clusters(const Scene& scene);
+/// The triangles of a mesh. One instance is that of all of them.
+struct MeshView {
+    std::span<const Eigen::Vector3f> vertices;
+    std::span<const TriangleCorners> triangles;
+    std::span<const std::uint32_t> materials, instances;
+};
+
+ClusterMesh make_clusters(const MeshView& mesh);
 
 /// Finds the triangles of a scene that may lie in a view. Neighbours in a mesh are mostly
 /// neighbours in space, so each run of 32 triangles has a bounding ball.

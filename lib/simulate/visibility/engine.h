@@ -136,7 +136,7 @@ class VisibilityEngine {
     virtual const VisibilityEngine& by_rays() const { return *this; }
 
     /// The poses of Scene::bodies that at() was given; empty without them. World.
-    virtual std::span<const Pose> body_poses() const { return {}; }
+    std::span<const Pose> body_poses() const { return caster_.body_poses(); }
 
   protected:
     /// `scene` must outlive it, and is what `caster` traces.

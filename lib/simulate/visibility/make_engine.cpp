@@ -20,10 +20,8 @@ constexpr int density_over_many_triangles = 4;
 class StripsOrRays final : public VisibilityEngine {
   public:
     StripsOrRays(const Scene& scene, const Caster& caster, bool by_strips)
-        : VisibilityEngine(scene, caster), rays_(make_rays_engine(scene, caster)) {
+        : StripsOrRays(scene, caster) {
         if (by_strips) strips_.emplace(scene, caster);
-        if (scene.triangles.size() > many_triangles)
-            dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
     }
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
@@ -34,7 +32,20 @@ class StripsOrRays final : public VisibilityEngine {
 
     const VisibilityEngine& by_rays() const override { return *rays_; }
 
+    std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
+        const Caster moved = caster().moved(T_world_body);
+        std::unique_ptr<StripsOrRays> out(new StripsOrRays(scene(), moved));
+        if (strips_) out->strips_.emplace(*strips_, moved);
+        return out;
+    }
+
   private:
+    StripsOrRays(const Scene& scene, const Caster& caster)
+        : VisibilityEngine(scene, caster), rays_(make_rays_engine(scene, caster)) {
+        if (scene.triangles.size() > many_triangles)
+            dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
+    }
+
     std::unique_ptr<VisibilityEngine> rays_, dense_rays_;
     std::optional<StripsEngine> strips_;
 };
@@ -44,10 +55,10 @@ class StripsOrRays final : public VisibilityEngine {
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
-    const bool only_by_rays = scene.sound_profile || !scene.bodies.empty() || !scene.copies.empty();
-    if (settings.type == EngineKind::rays || only_by_rays) return make_rays_engine(scene, caster);
+    if (settings.type == EngineKind::rays || scene.sound_profile)
+        return make_rays_engine(scene, caster);
     const bool by_strips =
-        settings.type == EngineKind::strips || scene.triangles.size() <= strips_triangles_max;
+        settings.type == EngineKind::strips || caster.placed_triangles() <= strips_triangles_max;
     return std::make_unique<StripsOrRays>(scene, caster, by_strips);
 }
 
@@ -59,11 +70,11 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
         if (scene.sound_profile)
             return engine + " needs straight paths of sound, and water.profile bends them" +
                    instead;
-        if (!scene.bodies.empty()) return engine + " does not support moving objects" + instead;
-        if (!scene.copies.empty())
-            return engine + " does not support copies of shared meshes" + instead;
     }
     if (!is_octree) return "";
+    if (!scene.bodies.empty()) return engine + " does not support moving objects" + instead;
+    if (!scene.copies.empty())
+        return engine + " does not support copies of shared meshes" + instead;
     return too_small_leaves((scene.bounds_max - scene.bounds_min).maxCoeff(),
                             settings.octree.leaf_m);
 }

@@ -26,10 +26,8 @@ constexpr double sag_of_sight_lines_m = 0.01;
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, int density)
-        : VisibilityEngine(scene, std::move(caster)),
-          T_world_body_(T_world_body.begin(), T_world_body.end()),
-          density_(density) {}
+    RaysEngine(const Scene& scene, Caster caster, int density)
+        : VisibilityEngine(scene, std::move(caster)), density_(density) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
@@ -54,14 +52,8 @@ class RaysEngine final : public VisibilityEngine {
     }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
-        std::vector<Pose> T_local_body(T_world_body.begin(), T_world_body.end());
-        for (Pose& pose : T_local_body)
-            pose.translation -= scene().origin;
-        return std::make_unique<RaysEngine>(scene(), caster().moved(T_local_body), T_world_body,
-                                            density_);
+        return std::make_unique<RaysEngine>(scene(), caster().moved(T_world_body), density_);
     }
-
-    std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
     Sampling denser_sampling(View view) const {
@@ -85,7 +77,6 @@ class RaysEngine final : public VisibilityEngine {
         return {scene().sound_profile.get(), scene().origin.z(), sag_m};
     }
 
-    std::vector<Pose> T_world_body_;
     int density_;
 };
 
@@ -97,7 +88,7 @@ std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
                                                    int density) {
-    return std::make_unique<RaysEngine>(scene, caster, std::span<const Pose>(), density);
+    return std::make_unique<RaysEngine>(scene, caster, density);
 }
 
 }  // namespace sonarsim

@@ -11,7 +11,7 @@ namespace sonarsim {
 class ColumnScan {
   public:
     /// All arguments must outlive it.
-    ColumnScan(const ClusterMesh& mesh, const std::vector<StripTriangle>& triangles,
+    ColumnScan(const ClustersInView& clusters, const std::vector<StripTriangle>& triangles,
                const ColumnFrame& frame, const LocalPose& pose, const StripRule& rule,
                std::vector<Sample>& out);
 

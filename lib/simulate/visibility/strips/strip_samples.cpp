@@ -36,10 +36,10 @@ float parts_by_sag(float sag_m, float max_sag_m) {
 
 }  // namespace
 
-StripSamples::StripSamples(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
-                           const StripRule& rule, const ColumnPieces& pieces,
+StripSamples::StripSamples(const ClustersInView& clusters, const ColumnFrame& frame,
+                           const LocalPose& pose, const StripRule& rule, const ColumnPieces& pieces,
                            std::vector<Sample>& out)
-    : mesh_(mesh),
+    : clusters_(clusters),
       frame_(frame),
       rule_(rule),
       pieces_(pieces),
@@ -253,7 +253,7 @@ void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, b
     const Vector3f along = R_sensor_frame_ * (0.5F * (quad.near_high + quad.far_high)) - low;
     const Vector3f low_half = R_sensor_frame_ * (0.5F * (quad.far_low - quad.near_low));
     const Vector3f high_half = R_sensor_frame_ * (0.5F * (quad.far_high - quad.near_high));
-    const ClusterFacet& facet = mesh_.facets[triangle.facet];
+    const ClusterFacet& facet = clusters_.facet(triangle.facet);
     const Vector3f normal = triangle.side * (R_sensor_local_ * facet.normal);
     for (int k = 0; k < count; ++k) {
         const float at = (static_cast<float>(k) + 0.5F) * share;

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/engine.h"
 #include "simulate/visibility/strips/column_pieces.h"
 #include "simulate/visibility/strips/piece_visibility.h"
@@ -28,7 +27,7 @@ struct Strip {
 class StripSamples {
   public:
     /// All arguments must outlive it.
-    StripSamples(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
+    StripSamples(const ClustersInView& clusters, const ColumnFrame& frame, const LocalPose& pose,
                  const StripRule& rule, const ColumnPieces& pieces, std::vector<Sample>& out);
 
     void add(const Strip& strip);
@@ -53,7 +52,7 @@ class StripSamples {
     Quad within_range(const Quad& quad) const;
     void cut_along(const StripTriangle& triangle, const Quad& whole, bool one_part);
 
-    const ClusterMesh& mesh_;
+    const ClustersInView& clusters_;
     const ColumnFrame& frame_;
     const StripRule& rule_;
     const ColumnPieces& pieces_;

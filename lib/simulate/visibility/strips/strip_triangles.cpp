@@ -67,9 +67,9 @@ class ColumnFinder {
 
 class TriangleProjection {
   public:
-    TriangleProjection(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
-                       float range_max_m, StripTriangles& out)
-        : mesh_(mesh),
+    TriangleProjection(const ClustersInView& clusters, const ColumnFrame& frame,
+                       const LocalPose& pose, float range_max_m, StripTriangles& out)
+        : clusters_(clusters),
           frame_(frame),
           R_frame_local_(frame.R_frame_sensor * pose.rotation.transpose()),
           position_(pose.position),
@@ -80,23 +80,32 @@ class TriangleProjection {
           column_width_(frame.column_width()),
           out_(out) {}
 
-    void run(std::span<const std::uint32_t> clusters) {
+    void run() {
         struct Distance {
             float m;
-            std::uint32_t cluster;
+            std::uint32_t cluster;  ///< the numbers of bodies and copies follow
             // NOLINTNEXTLINE(modernize-use-nullptr): no pointer
             auto operator<=>(const Distance&) const = default;
         };
+        const auto own = static_cast<std::uint32_t>(clusters_.own.clusters.size());
         std::vector<Distance> in_view;
-        for (const std::uint32_t k : clusters) {
-            const TriangleCluster& cluster = mesh_.clusters[k];
+        const auto find = [&](const TriangleCluster& cluster, std::uint32_t number) {
             const Vector3f centre = in_frame(cluster.centre);
             if (sees(centre, cluster.radius_m))
-                in_view.push_back({centre.norm() - cluster.radius_m, k});
-        }
+                in_view.push_back({centre.norm() - cluster.radius_m, number});
+        };
+        for (const std::uint32_t k : clusters_.own_clusters)
+            find(clusters_.own.clusters[k], k);
+        for (std::uint32_t k = 0; k < clusters_.placed.clusters.size(); ++k)
+            find(clusters_.placed.clusters[k], own + k);
         std::ranges::sort(in_view);
-        for (const Distance& at : in_view)
-            add_cluster(mesh_.clusters[at.cluster]);
+        const auto own_facets = static_cast<std::uint32_t>(clusters_.own.facets.size());
+        for (const auto& [m, number] : in_view) {
+            if (number < own)
+                add_cluster(clusters_.own, clusters_.own.clusters[number], 0);
+            else
+                add_cluster(clusters_.placed, clusters_.placed.clusters[number - own], own_facets);
+        }
         if (picture_ > 0.0F) out_.thinness = thin_ / picture_;
     }
 
@@ -115,14 +124,15 @@ class TriangleProjection {
                  beyond(-c.z(), reach_w_));
     }
 
-    void add_cluster(const TriangleCluster& cluster) {
+    void add_cluster(const ClusterMesh& mesh, const TriangleCluster& cluster,
+                     std::uint32_t first_facet) {
         std::array<Vector3f, std::size_t{3} * ClusterMesh::max_triangles> points;
         for (std::uint32_t i = 0; i < cluster.vertices; ++i)
-            points[i] = in_frame(mesh_.vertices[cluster.first_vertex + i]);
+            points[i] = in_frame(mesh.vertices[cluster.first_vertex + i]);
         for (std::uint32_t i = 0; i < cluster.triangles; ++i) {
-            const std::uint32_t facet = cluster.first_triangle + i;
-            const auto& [a, b, c] = mesh_.corners[facet];
-            add_facet({points[a], points[b], points[c]}, facet);
+            const std::uint32_t triangle = cluster.first_triangle + i;
+            const auto& [a, b, c] = mesh.corners[triangle];
+            add_facet({points[a], points[b], points[c]}, first_facet + triangle);
         }
     }
 
@@ -190,7 +200,7 @@ class TriangleProjection {
         t.w_max = std::max({w[0], w[1], w[2]});
         const float reach = frame_.reach_w(std::max(t.u0, u_low_), std::min(t.u2, u_high_));
         if (t.w_min >= reach || t.w_max <= -reach) return;
-        const ClusterFacet& data = mesh_.facets[facet];
+        const ClusterFacet& data = clusters_.facet(facet);
         const Vector3f normal = R_frame_local_ * data.normal;
         const float d = normal.dot(p[0]);
         t.height_m = std::fabs(d);
@@ -227,7 +237,7 @@ class TriangleProjection {
             thin_ += column_width_ * upright;
     }
 
-    const ClusterMesh& mesh_;
+    const ClustersInView& clusters_;
     const ColumnFrame& frame_;
     const Eigen::Matrix3f R_frame_local_;
     const Vector3f position_;
@@ -239,10 +249,10 @@ class TriangleProjection {
 
 }  // namespace
 
-StripTriangles strip_triangles(const ClusterMesh& mesh, std::span<const std::uint32_t> clusters,
-                               const ColumnFrame& frame, const LocalPose& pose, float range_max_m) {
+StripTriangles strip_triangles(const ClustersInView& clusters, const ColumnFrame& frame,
+                               const LocalPose& pose, float range_max_m) {
     StripTriangles out;
-    TriangleProjection(mesh, frame, pose, range_max_m, out).run(clusters);
+    TriangleProjection(clusters, frame, pose, range_max_m, out).run();
     return out;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/groups.h"
-#include "simulate/visibility/clusters.h"
+#include "simulate/visibility/strips/clusters_in_view.h"
 #include "simulate/visibility/strips/strip_frames.h"
 #include "simulate/visibility/view.h"
 
@@ -25,7 +25,7 @@ struct StripTriangle {
     float height_m;            ///< distance of the sensor from the plane
     float side;                ///< 1: the facet's normal faces the sensor, else -1
     float area_per_unit;       ///< m^2 per unit of its picture; 0: part of a clipped triangle
-    std::uint32_t facet;       ///< index into ClusterMesh::facets
+    std::uint32_t facet;       ///< a number for ClustersInView::facet()
     bool middle_above;         ///< the middle corner lies above the line between the others
     bool no_first, no_second;  ///< the corner has the u of its neighbour
 };
@@ -40,10 +40,10 @@ struct StripTriangles {
     float thinness = 0.0F;
 };
 
-/// Projects the triangles of `clusters` (indices into the mesh) into a frame. Surface nearer than
-/// 1e-5 of the greatest range, along the forward axis, is ignored.
-StripTriangles strip_triangles(const ClusterMesh& mesh, std::span<const std::uint32_t> clusters,
-                               const ColumnFrame& frame, const LocalPose& pose, float range_max_m);
+/// Projects triangles into a frame. Surface nearer than 1e-5 of the greatest range, along the
+/// forward axis, is ignored.
+StripTriangles strip_triangles(const ClustersInView& clusters, const ColumnFrame& frame,
+                               const LocalPose& pose, float range_max_m);
 
 /// The triangles that reach into each column, in their order.
 Groups triangles_by_column(const std::vector<StripTriangle>& triangles,

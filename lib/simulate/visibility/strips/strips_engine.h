@@ -2,12 +2,12 @@
 
 #include <atomic>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 #include "input/scene/scene.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/engine.h"
+#include "simulate/visibility/strips/clusters_in_view.h"
 #include "simulate/visibility/strips/strip_rule.h"
 #include "simulate/visibility/strips/strip_triangles.h"
 #include "simulate/visibility/view.h"
@@ -18,21 +18,27 @@ namespace sonarsim {
 /// finds what nearer pieces of its column leave of each piece, on the line in the middle of it.
 class StripsEngine final : public VisibilityEngine {
   public:
-    /// `scene` must outlive it; the scene must have no bodies, no copies and no profile of sound
-    /// speed.
+    /// `scene` must outlive it; it must have no profile of sound speed.
     StripsEngine(const Scene& scene, const Caster& caster);
+    /// The same with Scene::bodies where `moved` has them.
+    StripsEngine(const StripsEngine& at_rest, const Caster& moved);
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override;
 
   private:
-    std::vector<std::uint32_t> clusters_in(const View& view, Pose T_local_sensor) const;
-    void scan(const ColumnFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
-              const StripRule& rule, Samples& samples) const;
+    /// Shared by the engines of one scene.
+    struct Shared {
+        SceneClusters clusters;
+        /// Samples of the last ping, for which room is reserved: over a million triangles
+        /// growing costs half the time.
+        std::atomic<std::size_t> last_samples{0};
+    };
 
-    ClusterMesh mesh_;
-    /// Samples of the last ping, for which room is reserved: over a million triangles
-    /// growing costs half the time.
-    mutable std::atomic<std::size_t> last_samples_{0};
+    static void scan(const ColumnFrame& frame, const ClustersInView& clusters,
+                     const StripTriangles& triangles, const LocalPose& pose, const StripRule& rule,
+                     Samples& samples);
+
+    std::shared_ptr<Shared> shared_;
 };
 
 }  // namespace sonarsim
