@@ -72,7 +72,7 @@ Sample part_of(const Sample& sample, double low, double high) {
 /// Where energies add, a footprint may cover many beams and is not cut.
 template <class Add>
 void for_each_beam(const View& view, const Sample& sample, Add add) {
-    constexpr double sliver = 0.1;  // of a beam: as far as footprints may extend into another one
+    constexpr double sliver = 0.1;  // in beams, as far as footprints may extend into another one
     const Eigen::Vector3f& p = sample.position;
     const double place = beams_from_border(view, p);
     const float turned = (p.x() * sample.edge_u.y() - p.y() * sample.edge_u.x()) /

@@ -15,9 +15,9 @@ namespace sonarsim {
 struct ClustersInView {
     const ClusterMesh& own;                   ///< the scene's own surface,
     std::vector<std::uint32_t> own_clusters;  ///< and which of its clusters
-    ClusterMesh placed;                       ///< of bodies and copies
+    ClusterMesh placed;                       ///< bodies and copies
 
-    /// Those of `placed` follow the own ones.
+    /// Facets of `placed` follow the own ones.
     const ClusterFacet& facet(std::uint32_t index) const {
         return index < own.facets.size() ? own.facets[index]
                                          : placed.facets[index - own.facets.size()];
