@@ -6,7 +6,9 @@
 # folders and the program at the same place. To retry, give the same command again.
 root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))/..)
 SONARSIM ?= $(or $(wildcard $(root)/build/sonarsim),sonarsim)
-$(foreach v,N MISSION OUT,$(if $($(v)),,$(error $(v) is missing: make -f scripts/shards.mk N=16 MISSION=mission.yaml OUT=out/big)))
+$(foreach v,N MISSION OUT,$(if $(filter 1,$(words $($(v)))),,\
+    $(error $(v) must be one word: make -f scripts/shards.mk N=16 MISSION=mission.yaml OUT=out/big)))
+$(if $(shell [ "$(N)" -ge 1 ] 2>/dev/null && echo yes),,$(error N must be a number from 1 on))
 
 numbers := $(shell seq $(N))
 parts := $(addprefix $(OUT).parts/,$(numbers))

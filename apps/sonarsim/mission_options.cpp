@@ -38,6 +38,9 @@ void add_mission_options(CLI::App& command, MissionOptions& options, MissionOutp
     command.add_option("--seed", options.seed, "Short for --set seed=N")->type_name("N");
     if (output == MissionOutput::dataset) {
         command.add_option("--out", options.out, "Output folder, instead of the mission's")
+            ->check([](const std::string& folder) {
+                return folder.empty() ? "the folder's name is empty" : "";
+            })
             ->type_name("FOLDER");
     }
     command

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "input/mission/variants.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
@@ -248,7 +249,10 @@ void add_render(CLI::App& app, int& exit_code) {
     command
         .add_option("--checkpoint", arguments.render.checkpoint_s,
                     "Seconds between checkpoints, the most that a power cut costs (default: 5)")
-        ->check(CLI::Range(0.01, 3600.0))
+        ->check([](const std::string& seconds) {  // CLI::Range passes NaN
+            const double s = parse_number(seconds).value_or(0.0);
+            return s >= 0.01 && s <= 3600.0 ? "" : seconds + " is not from 0.01 to 3600";
+        })
         ->type_name("S");
     command.add_flag("--no-files", arguments.no_files, "Writes nothing, to measure the speed");
     command.add_flag("--strict", arguments.strict, "Exit code 3 where there was a warning");

@@ -104,6 +104,8 @@ class Usage(Sandbox):
                 (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
                 (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
                 (["render", "mission.yaml", "--set", "seed"], "--set"),
+                (["render", "mission.yaml", "--out", ""], "--out: the folder's name is empty"),
+                (["render", "mission.yaml", "--checkpoint", "nan"], "--checkpoint: nan is not from 0.01 to 3600"),
                 (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
                  "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
                 (["mission.yaml"], "a subcommand must come first, as in: sonarsim render mission.yaml"),

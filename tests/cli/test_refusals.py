@@ -137,6 +137,7 @@ REFUSED = (
     (edited("bottom.gltf", "scenes\\bottom.gltf"), "separate folders by '/'"),
     (edited("bottom.gltf", "~/bottom.gltf"), "'~' is not replaced"),
     (edited("bottom.gltf", "path.csv"), "path.csv: is not glTF", "mission.yaml:3:3 names it"),
+    (edited("{file: path.csv}", "{file: nope.csv}"), "nope.csv: cannot open", "mission.yaml:7:13 names it"),
     (edited("bottom.gltf", "bathy.tif") | {"bathy.tif": TIFF},
      "is a TIFF picture, such as a GeoTIFF, not glTF; an image of heights belongs into scene.heightmap"),
     (edited("bottom.gltf", "hull.DAE") | {"hull.DAE": "solid"}, "convert it: assimp export hull.DAE hull.glb"),

@@ -342,6 +342,16 @@ class Command(ToolTest):
                 (self.folder / "mission.yaml").write_text(MISSION.replace("gamma: 0.6", ", ".join(["gamma: 0.6", *known])))
                 self.gives_its_instrument_back(f"out{number}")
 
+    def test_gain_of_a_scene_without_rows_of_noise_stays_that_of_the_start(self):
+        """In a tank echoes fill all ranges; the start is the true preset."""
+        self.sonarsim("render", str(ROOT / "configs/tank_calibrated.yaml"), "--set", "trajectory.rate_hz=3", "--out", "tank", "-q")
+        code, text = self.calibrate("tank", "oculus_m1200d_2100khz_10m", "--report", str(self.folder / "mine.json"))
+        self.assertEqual(code, 0, text)
+        found = json.loads((self.folder / "mine.json").read_text())
+        self.assertNotIn("receiver.full_scale_db", found["estimates"])
+        self.assertAlmostEqual(found["estimates"]["receiver.gamma"]["value"], 0.5, delta=0.02)
+        self.assertGreaterEqual(found["agree"]["held_out"], found["agree"]["start"])
+
     def gives_its_instrument_back(self, out):
         self.sonarsim("render", "mission.yaml", "--out", out, "-q")
         code, text = self.calibrate(out, "start.yaml", "--report", str(self.folder / "mine.json"))

@@ -337,6 +337,13 @@ class Export(tool.ToolTest):
         self.assertLess(area, np.prod(widths, axis=0).min() + 0.05)
         self.assertLess(area, 0.6 * np.prod(box_of(mask)[2:]))
         self.refused("--oriented takes --format yolo", "--format", "coco", "--oriented")
+        listed["objects"][1]["fan"] = {"mask": counts_of(mask & (columns >= 15) | (rows + columns < 3))}    # at the border
+        path.write_text(json.dumps(listed))
+        dest = self.folder / "border"
+        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0", dest=dest)
+        numbers = [float(number) for path in dest.rglob("fls-*.txt") for line in path.read_text().splitlines()
+                   for number in line.split()[1:]]
+        self.assertTrue(all(0 <= number <= 1 for number in numbers))
 
     def test_hugging_face(self):
         """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
@@ -473,6 +480,11 @@ class Export(tool.ToolTest):
         for words, text in (((*coco, "--sensor", "no"), "there is no 'no'; there are: fls, sss"),
                             ((*coco, "--split", "train=0.5"), "the shares sum to 0.5"),
                             ((*coco, "--tile", "64x8"), "'64x8' must be N or WIDTHxHEIGHT, of 16 to 65536"),
+                            ((*coco, "--gap", "5"), "--gap and --rounds take --split"),
+                            ((*coco, "--overlap", "4"), "--overlap takes --tile"),
+                            (("--format", "masks", "--polygons"), "--polygons takes"),
+                            (("--format", "yolo", "--polygons", "--box", "both"), "the outlines of yolo are the object's"),
+                            (("--format", "crops", "--sensor", "fls", "--pixel-m", "50"), "times as large as"),
                             (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):
             self.refused(text, *words)
         path = self.out / "dataset.json"

@@ -91,6 +91,11 @@ class MissionReader : public KeyVisitor<MissionReader> {
             ((chosen == I ? void(value.template emplace<I>()) : void()), ...);
         }
         (std::index_sequence_for<T...>{});
+        std::visit(
+            [&](auto& chosen) {
+                if constexpr (requires { chosen.place; }) chosen.place = node_.place.location();
+            },
+            value);
     }
 
     /// Reads the kind of a sonar and fills in its defaults, except for the name.

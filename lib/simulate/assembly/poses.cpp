@@ -23,8 +23,13 @@ namespace sonarsim {
 namespace {
 
 Trajectory form_of(const FileTrajectoryConfig& config) {
-    Trajectory poses = read_trajectory(config.file);
-    return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
+    try {
+        Trajectory poses = read_trajectory(config.file);
+        return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
+    } catch (const InputError& error) {
+        if (config.place.file.empty()) throw;
+        throw named_at(error, config.place);
+    }
 }
 
 Trajectory form_of(const WaypointTrajectoryConfig& config) {

@@ -124,15 +124,17 @@ def calibrate(recordings, options):
             set_shape(own, part, options.settings)
         fits = [fit_image(part, own) for own, (part, _) in zip(starts, windows)]
         fit, start = joined(fits), starts[0]
-        shaped, text = [*zip(starts, windows)], text_of(start, new_keys(start, fit), source)
+        shaped = [*zip(starts, windows)]
         # Of a dataset without a mission nothing is rendered: its scene is known to be another, and its law to be single speckle.
         passes = None
         if options.mission or not all((pathlib.Path(one) / "dataset.json").exists() for one in options.recordings):
             fit, text, *passes = fit_by_passes(shaped, start, fit, source, options)
+            figures = all_figures(shaped, fits)
         else:
+            figures = fit_by_figures(shaped, fits, fit)
             fit.notes.append(SCENE_DECIDES)
-        result = result_of(name, pings, [row for own, parts, one in zip(starts, windows, fits)
-                                         for row in closed_figures(own, parts, one)], [*notes, *fit.notes], fit.estimates)
+            text = text_of(start, new_keys(start, fit), source)
+        result = result_of(name, pings, figures, [*notes, *fit.notes], fit.estimates)
         if passes:
             result["rendered"] = table_of_passes(*passes)
     except CalibrationError as fault:
@@ -164,6 +166,32 @@ def fit_by_passes(shaped, start, fit, source, options):
     *_, after, text, fit = max(tried, key=lambda of: of[:3])
     check_judged(after, before, fit.lacks)
     return fit, text, before, after
+
+
+def all_figures(shaped, fits):
+    return [row for (own, parts), one in zip(shaped, fits) for row in closed_figures(own, parts, one)]
+
+
+def fit_by_figures(shaped, fits, fit):
+    """The figures of a fit. Gain and noise are those of the start if more figures of the judged pings agree with these.
+    CalibrationError if more still agree with the start than with the fit."""
+    def worse():
+        rows = all_figures(shaped, fits)
+        return rows, sum(row[0].agrees for row in rows) - sum(row[2].agrees for row in rows)
+
+    rows, lost = worse()
+    if lost > 0 and any([fit.estimates.pop(key, None) for key in LEVEL_KEYS]):
+        for (start, _), one in zip(shaped, fits):
+            one.level_db = start.noise_db - start.full_scale_db
+            for name in (*(key[9:] for key in LEVEL_KEYS), "tvg_absorption"):
+                one.instrument["receiver"][name] = start.instrument["receiver"].get(name)
+        fit.notes[:] = [note for note in fit.notes if not note.startswith(("full_scale_db", "receiver.tvg_log"))]
+        fit.notes.append("gain and noise are those of the start, with which more figures agree")
+        rows, lost = worse()
+    if lost > 0:
+        raise CalibrationError(f"{lost} figures of the judged pings fewer agree with the fit than with the start, so it is not "
+                               "written: name a mission with their scene by --mission")
+    return rows
 
 
 def table_of_passes(before, after):

@@ -88,6 +88,14 @@ def parse(arguments):
                 parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
     if options.oriented and (options.format != "yolo" or options.polygons):
         parser.error("--oriented takes --format yolo and no --polygons")
+    outlines = options.polygons or options.oriented
+    for is_wrong, text in (
+            (options.polygons and options.format not in ("coco", "yolo"), "--polygons takes --format coco or yolo"),
+            (outlines and options.format == "yolo" and options.box != "object", "--box: the outlines of yolo are the object's"),
+            (not options.split and (options.gap is not None or options.rounds != 1), "--gap and --rounds take --split"),
+            (options.overlap and not options.tile, "--overlap takes --tile")):
+        if is_wrong:
+            parser.error(text)
     if options.tile and options.overlap >= min(options.tile):
         parser.error("--overlap must be less than the sides of a tile")
     return options
@@ -116,8 +124,10 @@ def export(options):
     if len({os.path.realpath(folder) for folder in options.folders}) < len(options.folders):
         raise ValueError("a dataset is given twice")
     source = Source(options.folders, options)
-    first = source.datasets[0].description
-    info = {"description": first["mission"], "version": first["program_version"], "seed": first["seed"]}
+    described = [dataset.description for dataset in source.datasets]
+    seeds = {one["seed"] for one in described}   # each variant has its own
+    info = {"description": described[0]["mission"], "version": described[0]["program_version"],
+            "seed": seeds.pop() if len(seeds) == 1 else None}
     statistics = Statistics(source.classes)
     if options.format == "masks" and len(source.classes) > 255:
         raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")

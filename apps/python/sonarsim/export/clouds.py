@@ -1,4 +1,6 @@
 """Points of pings with what they show, as .npz and .ply: the surface that imaging sonars see, the soundings of others."""
+import re
+
 import numpy as np
 
 from ..command import naming
@@ -7,9 +9,9 @@ from ..data import bin_of
 PLY = {"f8": "double", "f4": "float", "u2": "uint", "u4": "uint"}     # meshio knows no ushort
 
 
-def points_of(sample):
+def points_of(sample, depth):
     """The points of a ping, name -> array [n]: x, y, z in the world, intensity, class, instance, and depths below z = 0:
-    `depth_true_m` of the surface itself, `depth_m` of a sounding. Class and instance are those of its bin."""
+    `depth` of the surface itself, `depth_m` of a sounding. Class and instance are those of its bin."""
     sensor, found = sample.sensor, {}
     if "soundings" in sensor.keys:
         rows = np.array(sample["soundings"])
@@ -20,7 +22,7 @@ def points_of(sample):
     else:
         points = sensor.points(sample)
         at = tuple(points.bins.T)
-        found = dict(zip("xyz", points.position_m.T), depth_true_m=-points.position_m[:, 2])
+        found = dict(zip("xyz", points.position_m.T), **{depth: -points.position_m[:, 2]})
     for name, source, kind in (("intensity", "polar", "f4"), ("class", "class", "u2"), ("instance", "instance", "u2")):
         if source in sensor.keys:
             found[name] = sample[source][at].astype(kind)
@@ -29,10 +31,13 @@ def points_of(sample):
 
 def write(folder, dataset, sensors, options):
     """NAME-000012.npz and .ply of each ping, or NAME.npz and .ply of all, which say the ping. Yields lines to print."""
+    # Where a profile bends sound, places by straight sound are apparent ones.
+    mission = (dataset.folder / "mission.resolved.yaml").read_text("utf-8")
+    is_bent = re.search(r"^water:\n(?:  .*\n)*?  profile:", mission, re.MULTILINE)
     for sensor in sensors:
         clouds, count = [], 0
         for sample in sensor:
-            cloud = points_of(sample)
+            cloud = points_of(sample, "depth_apparent_m" if is_bent else "depth_true_m")
             count += len(cloud["x"])
             if options.whole:
                 clouds.append(cloud | {"ping": np.full(len(cloud["x"]), sample.ping, "u4")})

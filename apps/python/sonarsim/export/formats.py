@@ -127,7 +127,8 @@ class Yolo(Format):
         if self.options.polygons:
             values = runs.joined(one["outlines"])
         elif self.options.oriented:
-            values = runs.min_rectangle(sum(one["outlines"], []))
+            # A turned rectangle at the border reaches beyond it.
+            values = [(min(max(x, 0), width), min(max(y, 0), height)) for x, y in runs.min_rectangle(sum(one["outlines"], []))]
         return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
 
     def finish(self):
@@ -207,7 +208,7 @@ configs:
 ---
 # {mission}
 
-{pictures} pictures with boxes that sonarsim {version} rendered, seed {seed}. Licence: {licence}. `objects` of a row has
+{pictures} pictures with boxes that sonarsim {version} rendered, {seed}. Licence: {licence}. `objects` of a row has
 `bbox` (x, y, width and height in pixels), `category` and `id`, the number of the thing. Categories: {classes}.
 `sha256sum -c SHA256SUMS` checks the files.
 """
@@ -230,7 +231,7 @@ class HuggingFace(Format):
         classes = ", ".join(f"{k} {json.dumps(name, ensure_ascii=False)}" for k, name in enumerate(self.classes))
         write(self.folder / "README.md", CARD.format(
             licence=self.options.licence, mission=self.info["description"], version=self.info["version"],
-            seed=self.info["seed"], pictures=sum(map(len, self.parts.values())), classes=classes))
+            seed="each variant by its seed" if self.info["seed"] is None else f"seed {self.info['seed']}", pictures=sum(map(len, self.parts.values())), classes=classes))
         write(self.folder / "SHA256SUMS", "".join(
             f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(self.folder)}\n"
             for path in sorted(self.folder.rglob("*")) if path.is_file()))

@@ -12,6 +12,7 @@ from .source import MAX_PIXELS, object_of
 from .stand_out import Greys
 
 Image.MAX_IMAGE_PIXELS = MAX_PIXELS
+MAX_CROP = 4        # sides of a crop, in those of its picture
 TRIES = 20          # places that are drawn for each crop of the bed
 MIN_IN_VIEW = 0.98    # share of its pixels within the view
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
@@ -71,6 +72,9 @@ def crops_of(picture, pixels, objects, boxes, options):
     # A screen repeats the rows of pings that are further apart than its own.
     smoothing = Image.Resampling.BOX if picture.kind == "strip" else Image.Resampling.BILINEAR
     sides = [count * options.pixel_m / pixel_m for count, pixel_m in zip(options.crop, picture.pixel_m)]
+    if max(sides) > MAX_CROP * max(image.size):
+        raise ValueError(f"--pixel-m {options.pixel_m:g}: a crop would be {max(sides) / max(image.size):.3g} times as large as "
+                         f"{picture.path}; take less")
     found, dropped = [], 0
 
     def add(name, middle, shown):
