@@ -16,7 +16,7 @@ namespace sonarsim {
 struct FileTrajectoryConfig {
     std::filesystem::path file;  ///< .csv or TUM .txt/.tum
     double rate_hz = 0.0;        ///< 0: one ping per pose of the file
-    Location place;              ///< in the mission
+    Location place = {};         ///< in the mission
 };
 
 struct WaypointConfig {

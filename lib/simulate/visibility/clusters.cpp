@@ -74,7 +74,8 @@ void add_cluster(const MeshView& from, std::span<const std::uint32_t> triangles,
         const Eigen::Vector3d twice = cross_of(from.vertices, corners);
         const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
         mesh.facets.push_back({twice.normalized().cast<float>(), from.materials[triangle],
-                               from.instances[owner], static_cast<float>(0.5 * twice.norm())});
+                               from.instances[owner], static_cast<float>(0.5 * twice.norm()),
+                               triangle});
     }
     mesh.clusters.push_back(cluster);
 }

@@ -21,6 +21,7 @@ struct ClusterFacet {
     std::uint32_t material;
     std::uint32_t instance;
     float area_m2;
+    std::uint32_t number;  ///< the triangle in its mesh; a placed one in the whole scene
 };
 
 /// Up to 64 neighbouring triangles, with a ball around them.

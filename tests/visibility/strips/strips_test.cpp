@@ -1,5 +1,6 @@
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
@@ -183,6 +184,32 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-3));
     const double solid = 2.0 * fan_view().azimuth_rad * sincos(0.5 * fan_view().elevation_rad).sin;
     CHECK(filled_sr(samples) == test::approx(solid).epsilon(2e-3));
+}
+
+TEST_CASE("strips: where faces coincide the first of the file is seen, as by rays") {
+    // A plate in a floor: the plate before the floor is seen, and behind it hidden.
+    for (const bool plate_first : {true, false}) {
+        Scene scene = test::empty_scene();
+        const std::uint32_t sand = test::add_material(scene, 0.2F);
+        const std::uint32_t steel = test::add_material(scene, 0.9F);
+        const auto add = [&](float x0, float x1, float y, std::uint32_t material) {
+            test::add_quad(scene, {x0, -y, -2}, {x1, -y, -2}, {x1, y, -2}, {x0, y, -2}, material);
+        };
+        if (plate_first) add(5, 7, 1, steel);
+        add(1, 40, 30, sand);
+        if (!plate_first) add(5, 7, 1, steel);
+        const auto steel_m2 = [&](const Samples& samples) {
+            double area = 0.0;
+            for (const Sample& sample : samples.items)
+                area += sample.material == steel ? static_cast<double>(sample.area_m2) : 0.0;
+            return area;
+        };
+        const Pose pose{rotation_from_rpy(0.0, radians(15.0), 0.0), {0, 0, 0}};
+        const double by_strips = steel_m2(visible(scene, fan_view(), pose));
+        const double by_rays = steel_m2(make_rays_engine(scene)->visible_surface(fan_view(), pose));
+        CHECK(by_strips == test::approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
+        CHECK(by_rays == test::approx(plate_first ? 4.0 : 0.0).epsilon(0.03));
+    }
 }
 
 TEST_CASE("strips: two wide beams have the surface of rods that stand in each of them") {

@@ -9,12 +9,18 @@ namespace {
 /// Places the clusters of a mesh that may lie in a view. Scene-local.
 class ClusterPlacer {
   public:
-    ClusterPlacer(const ViewVolume& volume, ClusterMesh& out)
-        : volume_(volume), position_(volume.position().cast<float>()), out_(out) {}
+    ClusterPlacer(const ViewVolume& volume, std::size_t first_number, ClusterMesh& out)
+        : volume_(volume),
+          position_(volume.position().cast<float>()),
+          out_(out),
+          next_number_(static_cast<std::uint32_t>(first_number)) {}
 
-    /// `T_local_mesh`: a rotation, a translation and a uniform scale.
+    /// `T_local_mesh`: a rotation, a translation and a uniform scale. Triangles are numbered on in
+    /// the order of the calls, as a Caster does.
     void place(const ClusterMesh& mesh, const Ball& whole, const Eigen::Affine3d& T_local_mesh,
                std::uint32_t instance) {
+        first_number_ = next_number_;
+        next_number_ += static_cast<std::uint32_t>(mesh.facets.size());
         R_ = T_local_mesh.linear().cast<float>();
         t_ = T_local_mesh.translation().cast<float>();
         scale_ = static_cast<float>(T_local_mesh.linear().col(0).norm());
@@ -45,13 +51,14 @@ class ClusterPlacer {
             out_.corners.push_back(mesh.corners[triangle]);
             const ClusterFacet& facet = mesh.facets[triangle];
             out_.facets.push_back({R_ * facet.normal / scale_, facet.material, instance_,
-                                   scale_ * scale_ * facet.area_m2});
+                                   scale_ * scale_ * facet.area_m2, first_number_ + facet.number});
         }
     }
 
     const ViewVolume& volume_;
     const Eigen::Vector3f position_;
     ClusterMesh& out_;
+    std::uint32_t next_number_, first_number_ = 0;
     // The mesh:
     Eigen::Matrix3f R_;
     Eigen::Vector3f t_;
@@ -81,20 +88,20 @@ ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
     T_world_sensor.translation -= scene_.origin;
     const ViewVolume volume(view, T_world_sensor);
     ClustersInView out{own_, {}, {}};
-    ClusterPlacer placer(volume, out.placed);
+    ClusterPlacer placer(volume, own_.facets.size(), out.placed);
     for (std::uint32_t k = 0; k < own_.clusters.size(); ++k) {
         if (placer.may_be_visible(own_.clusters[k])) out.own_clusters.push_back(k);
     }
     const Eigen::Translation3d to_local(-scene_.origin);
+    for (const MeshCopy& copy : scene_.copies) {
+        placer.place(shared_[copy.mesh].clusters, shared_[copy.mesh].whole,
+                     to_local * copy.T_world_mesh, copy.instance);
+    }
     for (std::size_t k = 0; k < T_world_body.size(); ++k) {
         const Pose& pose = T_world_body[k];
         placer.place(bodies_[k].clusters, bodies_[k].whole,
                      to_local * (Eigen::Translation3d(pose.translation) * pose.rotation),
                      scene_.bodies[k].instance);
-    }
-    for (const MeshCopy& copy : scene_.copies) {
-        placer.place(shared_[copy.mesh].clusters, shared_[copy.mesh].whole,
-                     to_local * copy.T_world_mesh, copy.instance);
     }
     return out;
 }

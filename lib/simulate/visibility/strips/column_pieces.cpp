@@ -99,7 +99,7 @@ bool ColumnPieces::add(const StripTriangle& t, std::uint32_t index, float left, 
     p.q_max[k] = std::min(t.q_max, q + max_offset);
     p.w_min[k] = w_min;
     p.w_max[k] = w_max;
-    p.facet[k] = static_cast<std::int32_t>(t.facet);
+    p.number[k] = static_cast<std::int32_t>(t.number);
     p.triangle[k] = index;
     return true;
 }
@@ -117,7 +117,7 @@ void ColumnPieces::pad() {
         p.from[k] = p.w_min[k] = nowhere;
         p.to[k] = p.w_max[k] = -nowhere;
         p.q_max[k] = -1.0F;
-        p.facet[k] = no_facet;
+        p.number[k] = no_number;
     }
     const int groups = (blocks + lanes - 1) / lanes;
     bounds_.resize(groups);

@@ -20,7 +20,7 @@ struct alignas(32) PieceBlock {
     Row high_a, high_a_slope, high_b, high_b_slope;
     Row q, q_u, q_w, w;
     Row q_min, q_max, w_min, w_max;
-    std::array<std::int32_t, lanes> facet;
+    std::array<std::int32_t, lanes> number;
     std::array<std::uint32_t, lanes> triangle;  ///< index into StripTriangles::items
 };
 
@@ -37,7 +37,7 @@ struct PieceEnd {
 /// The pieces of one column, front to back by clusters. Memory is reused from column to column.
 class ColumnPieces {
   public:
-    static constexpr std::int32_t no_facet = -1;
+    static constexpr std::int32_t no_number = -1;
 
     /// `to_border_w`: the greatest |w| of the view in the column.
     void gather(const std::vector<StripTriangle>& triangles,

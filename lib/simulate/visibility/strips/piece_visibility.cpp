@@ -127,7 +127,7 @@ bool PieceVisibility::take_away(const Candidate& candidate) {
     const Floats8 q = line(b.q, b.q_u);
     const Floats8 w = load(b.w);
     const Mask8 lower =
-        Ints8(pieces_.block_of(piece_).facet[piece_ % lanes]) > Ints8::load(b.facet.data());
+        Ints8(pieces_.block_of(piece_).number[piece_ % lanes]) > Ints8::load(b.number.data());
     const Floats8 tie = sonarsim::where(lower, Floats8(same_depth), Floats8(-same_depth));
     const auto nearer = [&](Floats8 at) {
         const Floats8 own = fma(Floats8(q_w_), at, Floats8(q_0_));

@@ -228,6 +228,7 @@ class TriangleProjection {
         const float picture = 0.5F * (t.u2 - t.u0) * std::fabs(rise);
         t.area_per_unit = clipped || !(picture > 0.0F) ? 0.0F : data.area_m2 / picture;
         t.facet = facet;
+        t.number = data.number;
         out_.items.push_back(t);
         if (clipped) return;
         const float upright = t.w_max - t.w_min;
