@@ -1,5 +1,6 @@
 #include "calibrated/target_fixtures.h"
 #include "simulate/trace/target_shapes.h"
+#include "simulate/water/water_ray.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -163,6 +164,28 @@ TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they
     copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
     copied.copies.push_back(copy);
     CHECK(energy_by_rays(sonar, copied) == test::approx(expected).epsilon(0.01));
+}
+
+TEST_CASE("targets: where sound bends they have the echo of their apparent place") {
+    // A sphere looks alike from all sides, so it has the echo of one at the apparent place, times
+    // the strength of sound that converges or spreads.
+    const Sonar sonar = target_sonar(SonarKind::imaging);
+    const Eigen::Vector3d source = sensor_pose(sonar, Pose{}, 0).translation;
+    for (const double gradient : {-4.0, 0.0, 6.0}) {
+        const Eigen::Vector3d at(9.0, 0.4, 0.1);
+        const SoundProfile profile{
+            {-50.0, 50.0}, {1500.0 - 50.0 * gradient, 1500.0 + 50.0 * gradient}, 1500.0};
+        const auto appears = apparent_place(profile, source, at).value();
+        const BallScene straight(source + appears.apparent, 0.15, 32);
+        BallScene bent(at, 0.15, 32);
+        bent.scene.sound_profile = std::make_shared<const SoundProfile>(profile);
+        CAPTURE(gradient);
+        const double energy = energy_by_rays(sonar, bent.scene);
+        CHECK(energy ==
+              test::approx(appears.strength * energy_by_rays(sonar, straight.scene)).epsilon(0.02));
+        // A wall across the path hides it.
+        CHECK(energy_by_rays(sonar, behind_wall(bent, 4.0, -2.0, 0.0).scene) < 1e-6 * energy);
+    }
 }
 
 TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {

@@ -195,3 +195,44 @@ TEST_CASE("a place by range and direction, and level rays at a node end") {
     CHECK(far.x() == test::approx(14800.0).epsilon(1e-4));
     CHECK(std::fabs(far.z() + 50.0) < 0.5);
 }
+
+TEST_CASE(
+    "water ray: apparent places are the inverse of true ones, with the spread of their rays") {
+    // In a constant gradient g a ray of the elevation a, cos(a) / c constant, has gone the distance
+    // c (sin a - sin b) / (g cos a) where its elevation is b. Sound that spreads over W X / cos(a)
+    // for each solid angle, W = |dX / da sin b| at one height, has the power of range^2 by that,
+    // both ways.
+    constexpr double g = 0.1;
+    const SoundProfile profile{{-500.0, 500.0}, {1500.0 - 500.0 * g, 1500.0 + 500.0 * g}, 1480.0};
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int trial = 0; trial < 30; ++trial) {
+        const Eigen::Vector3d source(1e5, -2e5, 20.0 * unit(random));
+        const double azimuth = 2.0 * pi * unit(random);
+        const Eigen::Vector3d place =
+            source + Eigen::Vector3d((20.0 + 150.0 * unit(random)) * std::cos(azimuth),
+                                     (20.0 + 150.0 * unit(random)) * std::sin(azimuth),
+                                     -20.0 - 40.0 * unit(random));
+        const auto found = apparent_place(profile, source, place).value();
+        const double range = found.apparent.norm();
+        const Eigen::Vector3d direction = found.apparent / range;
+        CHECK((place_of(profile, source, direction, range) - place).norm() < 1e-4);
+        const double a = std::asin(direction.z());
+        const double c = profile.speed_at(source.z());
+        const double there = profile.speed_at(place.z());
+        const auto b_of = [&](double e) { return -std::acos(std::cos(e) * there / c); };
+        const auto distance = [&](double e) {
+            return c / (g * std::cos(e)) * (std::sin(e) - std::sin(b_of(e)));
+        };
+        const double across =
+            std::fabs((distance(a + 1e-5) - distance(a - 1e-5)) / 2e-5 * std::sin(b_of(a)));
+        const double share = range * range * std::cos(a) / (across * distance(a));
+        CHECK(found.strength == test::approx(share * share).epsilon(2e-3));
+        // The direction of arrival at the place, as it appears.
+        Eigen::Vector3d arrives = place - source;
+        arrives.z() = 0.0;
+        arrives = std::cos(b_of(a)) * arrives.normalized();
+        arrives.z() = std::sin(b_of(a));
+        CHECK((found.R * arrives - direction).norm() < 1e-3);
+    }
+}

@@ -268,7 +268,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     if (!refusal.empty()) throw InputError(refusal);
     for (Sonar& sonar : assembly.sonars)
         prepare_for(scene, sonar);
-    if (!scene.sound_profile) find_targets(assembly.sonars, scene);
+    find_targets(assembly.sonars, scene);
     assembly.inputs = inputs_of(mission, models);
     // 8. The white of pictures, by pings of the finished sonars.
     Brightness brightness = find_full_scales(mission, scene, assembly.trajectory, assembly.motions,

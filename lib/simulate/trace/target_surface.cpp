@@ -12,6 +12,7 @@
 #include "input/scene/materials.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/visibility/view.h"
+#include "simulate/water/water_ray.h"
 
 namespace sonarsim {
 
@@ -67,7 +68,8 @@ class TargetSampler {
 
     /// Cuts an object. False if it lies outside or is large enough for an engine's samples.
     bool add(const PlacedTarget& placed, const TargetShape& shape,
-             const Eigen::Affine3f& T_sensor_shape) {
+             const Eigen::Affine3f& T_sensor_shape, float strength) {
+        piece_.strength = strength;
         const float scale = T_sensor_shape.linear().col(0).norm();
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
@@ -90,7 +92,7 @@ class TargetSampler {
         return true;
     }
 
-    /// The pieces that are seen.
+    /// The pieces that are appears.
     std::vector<Sample> take_visible(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         const std::vector<bool> visible = engine.visible(T_world_sensor, sights_);
         std::size_t kept = 0;
@@ -220,15 +222,14 @@ class TargetSampler {
     Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
 };
 
-Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
-                                std::span<const Pose> T_world_body, const Pose& T_world_sensor) {
-    const auto affine = [](const Pose& pose) {
-        return Eigen::Affine3d(Eigen::Translation3d(pose.translation) * pose.rotation);
-    };
-    const Eigen::Affine3d T_world_shape =
-        placed.body ? affine(T_world_body[*placed.body])
-                    : Eigen::Translation3d(scene.origin) * placed.T_local_shape.cast<double>();
-    return (affine(T_world_sensor).inverse(Eigen::Isometry) * T_world_shape).cast<float>();
+Eigen::Affine3d affine(const Pose& pose) {
+    return Eigen::Translation3d(pose.translation) * pose.rotation;
+}
+
+Eigen::Affine3d in_world(const PlacedTarget& placed, const Scene& scene,
+                         std::span<const Pose> T_world_body) {
+    return placed.body ? affine(T_world_body[*placed.body])
+                       : Eigen::Translation3d(scene.origin) * placed.T_local_shape.cast<double>();
 }
 
 }  // namespace
@@ -240,8 +241,22 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view, const
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
-        if (sampler.add(placed, shapes.shapes[placed.shape],
-                        in_sensor_frame(placed, scene, bodies, T_world_sensor)))
+        const TargetShape& shape = shapes.shapes[placed.shape];
+        Eigen::Affine3d T_world_shape = in_world(placed, scene, bodies);
+        double strength = 1.0;
+        if (scene.sound_profile) {
+            // An object is small, so it appears as a whole where its centre does.
+            const Eigen::Vector3d& source = T_world_sensor.translation;
+            const auto appears = apparent_place(*scene.sound_profile, source,
+                                                T_world_shape * shape.centre.cast<double>());
+            if (!appears) continue;
+            T_world_shape = Eigen::Translation3d(source + appears->apparent) * appears->R *
+                            Eigen::Translation3d(-appears->place) * T_world_shape;
+            strength = appears->strength;
+        }
+        const Eigen::Affine3d T_sensor_shape =
+            affine(T_world_sensor).inverse(Eigen::Isometry) * T_world_shape;
+        if (sampler.add(placed, shape, T_sensor_shape.cast<float>(), static_cast<float>(strength)))
             out.instances.push_back(placed.instance);
     }
     std::ranges::sort(out.instances);

@@ -114,7 +114,8 @@ class VisibilityEngine {
 
     /// True for the points that no surface hides from the sonar. Surface that is nearer by no more
     /// than the slack of the point and the rounding of its plane does not hide it.
-    std::vector<bool> visible(const Pose& T_world_sensor, std::span<const SightPoint> points) const;
+    virtual std::vector<bool> visible(const Pose& T_world_sensor,
+                                      std::span<const SightPoint> points) const;
 
     /// The same along the paths of sound from the sonar, which may bend: a ray starts at an
     /// apparent place, leads away from the sonar, and ends at another apparent place within

@@ -156,4 +156,36 @@ Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& sou
     return place;
 }
 
+std::optional<ApparentPlace> apparent_place(const SoundProfile& profile,
+                                            const Eigen::Vector3d& source,
+                                            const Eigen::Vector3d& place) {
+    constexpr int max_steps = 20;
+    constexpr double step_m = 0.01;
+    constexpr double min_spread = 0.1;  // as of rays: a gain of 20 dB at most
+    const auto place_at = [&](const Eigen::Vector3d& apparent) {
+        return place_of(profile, source, apparent.normalized(), apparent.norm());
+    };
+    // The map is nearly the identity, so what a place is off by corrects the apparent one.
+    Eigen::Vector3d apparent = place - source;
+    const double length = apparent.norm();
+    double off_m = length;
+    for (int k = 0; k < max_steps && off_m > 1e-7 * length; ++k) {
+        const Eigen::Vector3d off = place - place_at(apparent);
+        off_m = off.norm();
+        if (!(off_m < 0.5 * length)) return std::nullopt;
+        apparent += off;
+    }
+    if (!(off_m < 1e-5 * length)) return std::nullopt;
+    Eigen::Matrix3d stretch;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d step = step_m * Eigen::Vector3d::Unit(k);
+        stretch.col(k) = (place_at(apparent + step) - place_at(apparent - step)) / (2.0 * step_m);
+    }
+    const Eigen::Vector3d along = stretch * apparent.normalized();
+    const double tube =
+        std::max(std::fabs(stretch.determinant()) / along.norm(), min_spread * min_spread);
+    return ApparentPlace{place, apparent, Eigen::Quaterniond::FromTwoVectors(along, apparent),
+                         1.0 / (tube * tube)};
+}
+
 }  // namespace sonarsim

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <optional>
 
 #include "simulate/water/sound_profile.h"
 
@@ -39,5 +41,18 @@ double advance(const SoundProfile& profile, double longest_m, WaterRay& ray);
 /// `direction` at the measured range `range_m`. World.
 Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& source,
                          const Eigen::Vector3d& direction, double range_m);
+
+/// The surroundings of a true place as an instrument receives them: x - place becomes
+/// R (x - place) + apparent, relative to the source. World.
+struct ApparentPlace {
+    Eigen::Vector3d place, apparent;
+    Eigen::Quaterniond R;
+    double strength;  ///< factor on the power of an echo, as sound converges or spreads
+};
+
+/// The inverse of place_of(); nothing if no ray that departs near the line of sight leads there.
+std::optional<ApparentPlace> apparent_place(const SoundProfile& profile,
+                                            const Eigen::Vector3d& source,
+                                            const Eigen::Vector3d& place);
 
 }  // namespace sonarsim

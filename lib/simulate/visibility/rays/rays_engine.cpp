@@ -51,6 +51,27 @@ class RaysEngine final : public VisibilityEngine {
                             intersections);
     }
 
+    std::vector<bool> visible(const Pose& T_world_sensor,
+                              std::span<const SightPoint> points) const override {
+        if (!scene().sound_profile) return VisibilityEngine::visible(T_world_sensor, points);
+        // Apparent places are off by the sag of a ray, and by the bend over an object.
+        constexpr float slack_m = 0.05F;
+        float reach_m = 0.0F;
+        std::vector<Ray> rays;
+        for (const SightPoint& point : points) {
+            rays.push_back({Eigen::Vector3f::Zero(), point.position.normalized()});
+            reach_m = std::max(reach_m, point.position.norm());
+        }
+        std::vector<Intersection> met(points.size());
+        intersect_behind(T_world_sensor, rays, reach_m, met);
+        std::vector<bool> out;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const float range = points[k].position.norm();
+            out.push_back(!(met[k].distance_m < range - slack_m - points[k].slack_m));
+        }
+        return out;
+    }
+
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         return std::make_unique<RaysEngine>(scene(), caster().moved(T_world_body), density_);
     }
