@@ -74,7 +74,7 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
         plan.fan = assembly.fans->bins(sonar);
     if (objects || listed(Label::shadow)) plan.annotated = annotated_objects(assembly);
     if (listed(Label::shadow))
-        plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
+        plan.triangles = std::make_shared<const SceneClusters>(assembly.scene);
     return plan;
 }
 

@@ -27,7 +27,7 @@ struct LabelPlan {
     std::vector<std::uint8_t> has_shadow;  ///< shadow_ids()
     bool fan_objects = false;              ///< objects have masks and boxes in the fan, too
     /// For shadows; null without.
-    std::shared_ptr<const TriangleRuns> triangles;
+    std::shared_ptr<const SceneClusters> triangles;
     AnnotatedObjects annotated;  ///< empty without annotations and shadows
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);

@@ -225,7 +225,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
         const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
         find(all_finder,
              by_triangles
-                 ? covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
+                 ? covered_bins(request.triangles ? *request.triangles : SceneClusters(scene), view,
                                 traced.T_world_sensor, engine.body_poses())
                  : hidden_by_all,
              labels.shadow);

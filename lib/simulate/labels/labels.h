@@ -9,7 +9,7 @@
 #include "input/scene/placing/bottom.h"
 #include "simulate/labels/object_directions.h"
 #include "simulate/ping/form_image.h"
-#include "simulate/visibility/clusters.h"
+#include "simulate/visibility/clusters_in_view.h"
 
 namespace sonarsim {
 
@@ -32,7 +32,7 @@ struct LabelRequest {
     /// A box around all surface, world; null: not known, which only slows shadows down.
     const Eigen::AlignedBox3d* surface = nullptr;
     /// The triangles of the scene, for shadows; null: they are sorted in each ping.
-    const TriangleRuns* triangles = nullptr;
+    const SceneClusters* triangles = nullptr;
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
 

@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-using Corners = TriangleRuns::Corners;
+using Corners = std::array<Eigen::Vector3f, 3>;
 
 /// A convex part of the view: planes through the sonar, given by normals that point inwards.
 using ConvexView = std::span<const Eigen::Vector3f>;
@@ -231,18 +231,18 @@ class ConeCoverage {
 };
 
 template <class Coverage>
-std::vector<std::uint8_t> covered_by(const TriangleRuns& surface, const View& view,
+std::vector<std::uint8_t> covered_by(const SceneClusters& surface, const View& view,
                                      const Pose& T_world_sensor,
                                      std::span<const Pose> T_world_body) {
     Coverage coverage(view);
-    surface.visit(view, T_world_sensor, T_world_body,
-                  [&](const Corners& corners) { coverage.add(corners); });
+    surface.in_view(view, T_world_sensor, T_world_body)
+        .visit_triangles([&](const Corners& corners) { coverage.add(corners); });
     return coverage.take();
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& view,
+std::vector<std::uint8_t> covered_bins(const SceneClusters& surface, const View& view,
                                        const Pose& T_world_sensor,
                                        std::span<const Pose> T_world_body) {
     const bool cone = view.shape == ViewShape::cone;

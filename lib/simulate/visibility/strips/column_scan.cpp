@@ -16,13 +16,12 @@ constexpr int crossing_steps = 3;
 }  // namespace
 
 ColumnScan::ColumnScan(const ClustersInView& clusters, const std::vector<StripTriangle>& triangles,
-                       const ColumnFrame& frame, const LocalPose& pose, const StripRule& rule,
-                       std::vector<Sample>& out)
+                       const ColumnFrame& frame, const StripRule& rule, std::vector<Sample>& out)
     : triangles_(triangles),
       frame_(frame),
       rule_(rule),
       visibility_(pieces_),
-      samples_(clusters, frame, pose, rule, pieces_, out),
+      samples_(clusters, frame, rule, pieces_, out),
       hider_(triangles.size(), no_triangle),
       piece_of_(triangles.size(), 0),
       column_of_(triangles.size(), -1) {}

@@ -12,8 +12,7 @@ class ColumnScan {
   public:
     /// All arguments must outlive it.
     ColumnScan(const ClustersInView& clusters, const std::vector<StripTriangle>& triangles,
-               const ColumnFrame& frame, const LocalPose& pose, const StripRule& rule,
-               std::vector<Sample>& out);
+               const ColumnFrame& frame, const StripRule& rule, std::vector<Sample>& out);
 
     /// Adds the samples of a column between two u, from its triangles. Columns are scanned once
     /// each.

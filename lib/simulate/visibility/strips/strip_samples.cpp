@@ -37,14 +37,14 @@ float parts_by_sag(float sag_m, float max_sag_m) {
 }  // namespace
 
 StripSamples::StripSamples(const ClustersInView& clusters, const ColumnFrame& frame,
-                           const LocalPose& pose, const StripRule& rule, const ColumnPieces& pieces,
+                           const StripRule& rule, const ColumnPieces& pieces,
                            std::vector<Sample>& out)
     : clusters_(clusters),
       frame_(frame),
       rule_(rule),
       pieces_(pieces),
       R_sensor_frame_(frame.R_frame_sensor.transpose()),
-      R_sensor_local_(pose.rotation.transpose()),
+      R_sensor_local_(clusters.pose.rotation.transpose()),
       out_(out) {}
 
 Vector3f StripSamples::point(const Strip& strip, float u, float w) const {

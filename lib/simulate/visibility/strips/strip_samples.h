@@ -27,8 +27,8 @@ struct Strip {
 class StripSamples {
   public:
     /// All arguments must outlive it.
-    StripSamples(const ClustersInView& clusters, const ColumnFrame& frame, const LocalPose& pose,
-                 const StripRule& rule, const ColumnPieces& pieces, std::vector<Sample>& out);
+    StripSamples(const ClustersInView& clusters, const ColumnFrame& frame, const StripRule& rule,
+                 const ColumnPieces& pieces, std::vector<Sample>& out);
 
     void add(const Strip& strip);
 

@@ -67,12 +67,12 @@ class ColumnFinder {
 
 class TriangleProjection {
   public:
-    TriangleProjection(const ClustersInView& clusters, const ColumnFrame& frame,
-                       const LocalPose& pose, float range_max_m, StripTriangles& out)
+    TriangleProjection(const ClustersInView& clusters, const ColumnFrame& frame, float range_max_m,
+                       StripTriangles& out)
         : clusters_(clusters),
           frame_(frame),
-          R_frame_local_(frame.R_frame_sensor * pose.rotation.transpose()),
-          position_(pose.position),
+          R_frame_local_(frame.R_frame_sensor * clusters.pose.rotation.transpose()),
+          position_(clusters.pose.position),
           reach_m_(range_max_m),
           u_low_(frame.u_low),
           u_high_(frame.u_high),
@@ -251,9 +251,9 @@ class TriangleProjection {
 }  // namespace
 
 StripTriangles strip_triangles(const ClustersInView& clusters, const ColumnFrame& frame,
-                               const LocalPose& pose, float range_max_m) {
+                               float range_max_m) {
     StripTriangles out;
-    TriangleProjection(clusters, frame, pose, range_max_m, out).run();
+    TriangleProjection(clusters, frame, range_max_m, out).run();
     return out;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/groups.h"
-#include "simulate/visibility/strips/clusters_in_view.h"
+#include "simulate/visibility/clusters_in_view.h"
 #include "simulate/visibility/strips/strip_frames.h"
 #include "simulate/visibility/view.h"
 
@@ -44,7 +44,7 @@ struct StripTriangles {
 /// Projects triangles into a frame. Surface nearer than 1e-5 of the greatest range, along the
 /// forward axis, is ignored.
 StripTriangles strip_triangles(const ClustersInView& clusters, const ColumnFrame& frame,
-                               const LocalPose& pose, float range_max_m);
+                               float range_max_m);
 
 /// The triangles that reach into each column, in their order.
 Groups triangles_by_column(const std::vector<StripTriangle>& triangles,

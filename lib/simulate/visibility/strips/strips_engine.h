@@ -6,8 +6,8 @@
 
 #include "input/scene/scene.h"
 #include "simulate/visibility/caster.h"
+#include "simulate/visibility/clusters_in_view.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/strips/clusters_in_view.h"
 #include "simulate/visibility/strips/strip_rule.h"
 #include "simulate/visibility/strips/strip_triangles.h"
 #include "simulate/visibility/view.h"
@@ -35,8 +35,7 @@ class StripsEngine final : public VisibilityEngine {
     };
 
     static void scan(const ColumnFrame& frame, const ClustersInView& clusters,
-                     const StripTriangles& triangles, const LocalPose& pose, const StripRule& rule,
-                     Samples& samples);
+                     const StripTriangles& triangles, const StripRule& rule, Samples& samples);
 
     std::shared_ptr<Shared> shared_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,7 @@ namespace sonarsim {
 
 /// The clusters that may lie in a view, scene-local.
 struct ClustersInView {
+    LocalPose pose;                           ///< the sensor
     const ClusterMesh& own;                   ///< the scene's own surface,
     std::vector<std::uint32_t> own_clusters;  ///< and which of its clusters
     ClusterMesh placed;                       ///< bodies and copies
@@ -21,6 +23,26 @@ struct ClustersInView {
     const ClusterFacet& facet(std::uint32_t index) const {
         return index < own.facets.size() ? own.facets[index]
                                          : placed.facets[index - own.facets.size()];
+    }
+
+    /// Calls visit(corners), in the frame of the sensor, for every triangle.
+    template <class Visit>
+    void visit_triangles(Visit visit) const {
+        const Eigen::Matrix3f R = pose.rotation.transpose();
+        const auto visit_cluster = [&](const ClusterMesh& mesh, const TriangleCluster& cluster) {
+            for (std::uint32_t k = 0; k < cluster.triangles; ++k) {
+                const auto& local = mesh.corners[cluster.first_triangle + k];
+                std::array<Eigen::Vector3f, 3> corners;
+                for (std::size_t i = 0; i < 3; ++i)
+                    corners[i] =
+                        R * (mesh.vertices[cluster.first_vertex + local[i]] - pose.position);
+                visit(corners);
+            }
+        };
+        for (const std::uint32_t k : own_clusters)
+            visit_cluster(own, own.clusters[k]);
+        for (const TriangleCluster& cluster : placed.clusters)
+            visit_cluster(placed, cluster);
     }
 };
 

@@ -1,4 +1,4 @@
-#include "simulate/visibility/strips/clusters_in_view.h"
+#include "simulate/visibility/clusters_in_view.h"
 
 #include <Eigen/Geometry>
 
@@ -85,9 +85,9 @@ SceneClusters::SceneClusters(const Scene& scene)
 
 ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
                                       std::span<const Pose> T_world_body) const {
+    ClustersInView out{local_pose(T_world_sensor, scene_.origin), own_, {}, {}};
     T_world_sensor.translation -= scene_.origin;
     const ViewVolume volume(view, T_world_sensor);
-    ClustersInView out{own_, {}, {}};
     ClusterPlacer placer(volume, own_.facets.size(), out.placed);
     for (std::uint32_t k = 0; k < own_.clusters.size(); ++k) {
         if (placer.may_be_visible(own_.clusters[k])) out.own_clusters.push_back(k);
