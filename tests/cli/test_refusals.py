@@ -235,6 +235,8 @@ WARNED = (
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),
      None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
+    (edited("scene:\n", "water: {profile: {named: summer}}\nscene:\n  water_surface: {height_m: 3}\n"),
+     None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
 )
 
 

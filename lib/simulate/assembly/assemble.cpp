@@ -61,8 +61,9 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
     std::size_t pings = 0;
     std::size_t above = 0;
+    bool multipath = false;
     for (const Sonar& sonar : assembly.sonars) {
-        if (sonar.config.multipath.method == MultipathMethod::none) continue;
+        multipath = multipath || sonar.config.multipath.method != MultipathMethod::none;
         const auto every = static_cast<std::size_t>(sonar.config.every);
         for (std::size_t i = 0; i < assembly.trajectory.size(); i += every) {
             const auto pose = static_cast<std::uint32_t>(i);
@@ -73,15 +74,14 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
         }
     }
     const std::string name = "scene.water_surface ";
-    if (pings == 0) {
-        // The surface has an effect: it bounds the water, and depths count from it.
-        if (some_water_scatters(mission) || mission.water.profile || config.scatters) return "";
+    // Without multipath the surface bounds the water, and depths count from it.
+    if (!multipath && !some_water_scatters(mission) && !mission.water.profile && !config.scatters) {
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
-    if (config.roughness == 1.0)
+    if (multipath && config.roughness == 1.0)
         return name + "has no effect because a roughness of 1 reflects nothing: lower it";
-    if (config.height_m <= assembly.scene.bounds_min.z()) {
+    if (multipath && config.height_m <= assembly.scene.bounds_min.z()) {
         return name + fmt::format("at {:.4g} m lies below all of the scene: raise height_m",
                                   config.height_m);
     }
