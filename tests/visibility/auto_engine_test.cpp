@@ -1,8 +1,7 @@
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/strips/strips_engine.h"
 #include "simulate/water/sound_profile.h"
-#include "support/test.h"
+#include "visibility/strips/fixtures.h"
 
 using namespace sonarsim;
 
@@ -27,7 +26,7 @@ TEST_CASE("auto takes strips; multipath starts from rays") {
     const View view = auto_view();
     Pose pose;
     pose.translation = {0.0, 0.0, 1.5};
-    const Samples by_strips = StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
+    const Samples by_strips = test::visible(scene, view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
     for (const EngineKind type : {EngineKind::automatic, EngineKind::strips}) {
         const auto engine = make_engine(scene, {.type = type, .octree = {}});

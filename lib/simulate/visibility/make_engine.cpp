@@ -1,10 +1,10 @@
 #include "simulate/visibility/make_engine.h"
 
-#include <optional>
+#include <atomic>
 
 #include "simulate/visibility/octree/tree.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/strips/strips_engine.h"
+#include "simulate/visibility/strips/strips.h"
 
 namespace sonarsim {
 
@@ -21,11 +21,17 @@ class StripsOrRays final : public VisibilityEngine {
   public:
     StripsOrRays(const Scene& scene, const Caster& caster, bool by_strips)
         : StripsOrRays(scene, caster) {
-        if (by_strips) strips_.emplace(scene, caster);
+        if (by_strips) strips_.reset(new Strips{SceneClusters(scene)});
     }
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        if (strips_) return strips_->visible_surface(view, T_world_sensor);
+        if (strips_) {
+            Samples out =
+                strips_surface(strips_->clusters.in_view(view, T_world_sensor, body_poses()), view,
+                               strips_->last_samples.load(std::memory_order_relaxed));
+            strips_->last_samples.store(out.items.size(), std::memory_order_relaxed);
+            return out;
+        }
         const bool dense = dense_rays_ && !view.energies_add;
         return (dense ? dense_rays_ : rays_)->visible_surface(view, T_world_sensor);
     }
@@ -33,9 +39,8 @@ class StripsOrRays final : public VisibilityEngine {
     const VisibilityEngine& by_rays() const override { return *rays_; }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
-        const Caster moved = caster().moved(T_world_body);
-        std::unique_ptr<StripsOrRays> out(new StripsOrRays(scene(), moved));
-        if (strips_) out->strips_.emplace(*strips_, moved);
+        std::unique_ptr<StripsOrRays> out(new StripsOrRays(scene(), caster().moved(T_world_body)));
+        out->strips_ = strips_;
         return out;
     }
 
@@ -46,8 +51,13 @@ class StripsOrRays final : public VisibilityEngine {
             dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
     }
 
+    struct Strips {
+        SceneClusters clusters;
+        std::atomic<std::size_t> last_samples{0};  ///< in the last ping
+    };
+
     std::unique_ptr<VisibilityEngine> rays_, dense_rays_;
-    std::optional<StripsEngine> strips_;
+    std::shared_ptr<Strips> strips_;  ///< null: rays; shared by the engines at all times
 };
 
 }  // namespace

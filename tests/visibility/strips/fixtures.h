@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/visibility/strips/strips_engine.h"
+#include "simulate/visibility/strips/strips.h"
 #include "support/patches.h"
 
 namespace sonarsim::test {
@@ -9,8 +9,12 @@ inline View fan_view() {
     return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
 }
 
+inline Samples visible(const SceneClusters& clusters, const View& view, const Pose& pose = {}) {
+    return strips_surface(clusters.in_view(view, pose, {}), view);
+}
+
 inline Samples visible(const Scene& scene, const View& view, const Pose& pose = {}) {
-    return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
+    return visible(SceneClusters(scene), view, pose);
 }
 
 /// The solid angle that the samples fill.

@@ -1,7 +1,6 @@
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/strips/strips_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 #include "visibility/strips/fixtures.h"

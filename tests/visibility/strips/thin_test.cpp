@@ -79,14 +79,14 @@ TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder
     // The mean of v . n over the visible half of a cylinder is 2 / pi = 0.64.
     Scene scene = test::empty_scene();
     test::add_pole(scene, {5.0F, 0.0F, -2.0F}, 0.002F, 4.0F, test::add_material(scene, 0.5F), 8);
-    const StripsEngine engine(scene, Caster(scene));
+    const SceneClusters clusters(scene);
     for (int k = 0; k < 60; ++k) {
         CAPTURE(k);
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
                         Eigen::Vector3d(0.001 * k, 0.0, 0.0)};
         double area = 0.0;
         double echo = 0.0;
-        for (const Sample& sample : engine.visible_surface(fan_view(), pose).items) {
+        for (const Sample& sample : test::visible(clusters, fan_view(), pose).items) {
             area += sample.area_m2;
             echo += sample.area_m2 * sample.height_m / sample.position.norm();
         }
@@ -102,10 +102,10 @@ TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder
 TEST_CASE("strips: a ball of 2 cm is seen in every ping") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {8, 0, 0}, 0.01F, test::add_material(scene, 0.5F), 16);
-    const StripsEngine engine(scene, Caster(scene));
+    const SceneClusters clusters(scene);
     for (int k = 0; k < 60; ++k) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k))};
-        const double share = area_of(engine.visible_surface(fan_view(), pose)) / (2.0 * pi * 1e-4);
+        const double share = area_of(visible(clusters, fan_view(), pose)) / (2.0 * pi * 1e-4);
         // The ball's faces have 0.968 of a sphere's area.
         CHECK(share > 0.85);
         CHECK(share < 1.05);
@@ -183,11 +183,11 @@ TEST_CASE("strips: no face of a stay stands for many times its area") {
         std::vector<float> areas;
         for (int k = 0; k < 200; ++k)
             add_stay(scene, draws, areas);
-        const StripsEngine engine(scene, Caster(scene));
+        const SceneClusters clusters(scene);
         for (const double goal : {0.03, 0.01, 0.004}) {
             view.relative_l1 = goal;
             std::vector<float> visible(areas.size(), 0.0F);
-            for (const Sample& sample : engine.visible_surface(view, Pose{}).items)
+            for (const Sample& sample : test::visible(clusters, view, Pose{}).items)
                 visible[sample.instance] += sample.area_m2;
             float max_share = 0.0F;
             for (std::size_t k = 0; k < areas.size(); ++k)
@@ -207,10 +207,10 @@ TEST_CASE("strips: no beam of a drawn lattice is far from brute force at any goa
         View view = make_sonar(lattice.sonar, {}).settings.view;
         const Reference truth =
             cast_reference(caster, lattice.scene, view, Pose{}, {0.02, 64.0, 4'000'000});
-        const StripsEngine engine(lattice.scene, caster);
+        const SceneClusters clusters(lattice.scene);
         for (const double goal : {0.03, 0.02, 0.01, 0.006, 0.003}) {
             view.relative_l1 = goal;
-            const Samples samples = engine.visible_surface(view, Pose{});
+            const Samples samples = visible(clusters, view, Pose{});
             CAPTURE_ALL(number, goal);
             CHECK(worst_beam(mean_echoes(lattice.scene, view, samples), truth, view) < 0.6);
         }
