@@ -75,17 +75,19 @@ void for_each_beam(const View& view, const Sample& sample, Add add) {
     constexpr double sliver = 0.1;  // in beams, as far as footprints may extend into another one
     const Eigen::Vector3f& p = sample.position;
     const double place = beams_from_border(view, p);
-    const float turned = (p.x() * sample.edge_u.y() - p.y() * sample.edge_u.x()) /
-                         (p.x() * p.x() + p.y() * p.y());
-    const double along_u = turned * view.beams / view.azimuth_rad;
-    const double half = std::fabs(along_u);
-    const double first = std::floor(place - half + sliver);
-    const double last = std::floor(place + half - sliver);
-    if (view.energies_add || !(last > first)) return add(std::floor(place), sample);
-    for (double beam = first; beam <= last; ++beam) {
+    const float level2 = p.head<2>().squaredNorm();
+    const float across2 = p.x() * sample.edge_u.y() - p.y() * sample.edge_u.x();
+    const double along_u = level2 > 0.0F ? across2 / level2 * view.beams / view.azimuth_rad : 0.0;
+    // Straight above the sonar a footprint spans all azimuths.
+    const double half = std::min(std::fabs(along_u), 0.5 * view.beams);
+    const auto beam_at = [](double at) { return static_cast<int>(std::floor(at)); };
+    const int first = beam_at(place - half + sliver);
+    const int last = beam_at(place + half - sliver);
+    if (view.energies_add || last <= first) return add(beam_at(place), sample);
+    for (int beam = first; beam <= last; ++beam) {
         const double low = beam > first ? (beam - place) / along_u : std::copysign(1.0, -along_u);
         const double high =
-            beam < last ? (beam + 1.0 - place) / along_u : std::copysign(1.0, along_u);
+            beam < last ? (beam + 1 - place) / along_u : std::copysign(1.0, along_u);
         add(beam, part_of(sample, std::min(low, high), std::max(low, high)));
     }
 }
@@ -101,10 +103,10 @@ void sort_into_beams(const View& view, Samples& samples) {
             outside.push_back(sample);
             continue;
         }
-        for_each_beam(view, sample, [&](double beam, const Sample& part) {
-            if (full_turn) beam -= view.beams * std::floor(beam / view.beams);
-            const bool in_view = beam >= 0.0 && beam < view.beams;
-            (in_view ? beam_samples[static_cast<std::size_t>(beam)] : outside).push_back(part);
+        for_each_beam(view, sample, [&](int beam, const Sample& part) {
+            if (full_turn) beam = (beam + view.beams) % view.beams;
+            const bool in_view = beam >= 0 && beam < view.beams;
+            (in_view ? beam_samples[beam] : outside).push_back(part);
         });
     }
     samples.items.clear();
