@@ -11,6 +11,11 @@ struct Pose {
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< m
 };
 
+/// The same transform as a matrix.
+inline Eigen::Affine3d affine(const Pose& pose) {
+    return Eigen::Translation3d(pose.translation) * pose.rotation;
+}
+
 /// T_a_c = T_a_b * T_b_c.
 inline Pose operator*(const Pose& T_a_b, const Pose& T_b_c) {
     return {(T_a_b.rotation * T_b_c.rotation).normalized(),

@@ -24,6 +24,7 @@
 namespace sonarsim {
 
 struct AccuracyConfig {
+    static constexpr double min_relative_l1 = 1e-4;
     double relative_l1 = 0.03;  ///< error goal of the noise-free image
 };
 
@@ -87,7 +88,7 @@ inline bool is_folder_name(std::string_view name) {
 
 template <class Visitor>
 void describe(Visitor& v, AccuracyConfig& c) {
-    v.number("relative_l1", c.relative_l1, between(1e-4, 0.5),
+    v.number("relative_l1", c.relative_l1, between(AccuracyConfig::min_relative_l1, 0.5),
              "error goal of the image without noise: the sum of its absolute errors over its sum. "
              "The sampling is derived from it");
 }

@@ -102,7 +102,8 @@ std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
-    return "lower accuracy.relative_l1 to " + short_text(std::max(goal * goal / worst, 1e-4)) +
+    const double lower = std::max(goal * goal / worst, AccuracyConfig::min_relative_l1);
+    return "lower accuracy.relative_l1 to " + short_text(lower) +
            (mission.engine == EngineKind::automatic
                 ? ""
                 : ", or use the engine with the least error in `sonarsim report`");

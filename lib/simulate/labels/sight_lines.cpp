@@ -18,7 +18,8 @@ constexpr float longest_half = 0.1F;
 constexpr float max_parts_by_beams = 64.0F;
 constexpr float max_parts_by_bins = 128.0F;
 
-// The surface behind a part is so many bins deep.
+// The surface behind a part is so many bins deep. With two, shadows in tank_labels are off by 1 to
+// 3 instead of 1 to 4 %, for 1.6 instead of 1.1 times the time.
 constexpr float bins_of_part = 4.0F;
 
 /// The sight line behind a place of a sample.

@@ -57,6 +57,11 @@ float min_off(const Corners& corners) {
     return middle.norm() - std::sqrt(spread2);
 }
 
+/// The effect of sound that bends on a target: see ApparentPlace.
+struct Bending {
+    float strength = 1.0F, off_per_m = 0.0F;
+};
+
 /// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
@@ -68,8 +73,8 @@ class TargetSampler {
 
     /// Cuts an object. False if it lies outside or is large enough for an engine's samples.
     bool add(const PlacedTarget& placed, const TargetShape& shape,
-             const Eigen::Affine3f& T_sensor_shape, float strength) {
-        piece_.strength = strength;
+             const Eigen::Affine3f& T_sensor_shape, const Bending& bending) {
+        piece_.strength = bending.strength;
         const float scale = T_sensor_shape.linear().col(0).norm();
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
@@ -87,12 +92,12 @@ class TargetSampler {
         if (highlight > max_cells * cell && is_smooth) return false;
         part_m_ = part_by_diameter * 2.0F * radius;
         min_glint_m_ = std::min(min_glint_by_cell * cell, part_m_);
-        weld_m_ = weld_slack * radius;
+        slack_m_ = (weld_slack + bending.off_per_m) * radius;
         cut(placed, shape, T_sensor_shape, scale);
         return true;
     }
 
-    /// The pieces that are appears.
+    /// The pieces that are seen.
     std::vector<Sample> take_visible(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         const std::vector<bool> visible = engine.visible(T_world_sensor, sights_);
         std::size_t kept = 0;
@@ -195,7 +200,7 @@ class TargetSampler {
             flat_normal_.dot(last_normal_) > 0.9F)
             return;
         sights_.push_back(
-            {middle, std::fabs(flat_normal_.dot(arrival_of(middle).direction)), weld_m_});
+            {middle, std::fabs(flat_normal_.dot(arrival_of(middle).direction)), slack_m_});
         last_point_ = middle;
         last_normal_ = flat_normal_;
     }
@@ -208,7 +213,7 @@ class TargetSampler {
     // The target that is cut:
     float part_m_ = 0.0F;       ///< the greatest size of a piece
     float min_glint_m_ = 0.0F;  ///< the least size of a part of a highlight that one ray decides on
-    float weld_m_ = 0.0F;       ///< the way by which its vertices were moved at most
+    float slack_m_ = 0.0F;      ///< the way by which its places are off at most
     // The triangle that is cut:
     Eigen::Vector3f flat_normal_ = Eigen::Vector3f::Zero();  ///< facing the sonar
     float curvature_m_ = 0.0F;  ///< as in TargetTriangle, negative if hollow
@@ -221,10 +226,6 @@ class TargetSampler {
     std::optional<Eigen::Vector3f> last_point_;
     Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
 };
-
-Eigen::Affine3d affine(const Pose& pose) {
-    return Eigen::Translation3d(pose.translation) * pose.rotation;
-}
 
 Eigen::Affine3d in_world(const PlacedTarget& placed, const Scene& scene,
                          std::span<const Pose> T_world_body) {
@@ -243,7 +244,7 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view, const
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
         const TargetShape& shape = shapes.shapes[placed.shape];
         Eigen::Affine3d T_world_shape = in_world(placed, scene, bodies);
-        double strength = 1.0;
+        Bending bending;
         if (scene.sound_profile) {
             // An object is small, so it appears as a whole where its centre does.
             const Eigen::Vector3d& source = T_world_sensor.translation;
@@ -252,11 +253,12 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view, const
             if (!appears) continue;
             T_world_shape = Eigen::Translation3d(source + appears->apparent) * appears->R *
                             Eigen::Translation3d(-appears->place) * T_world_shape;
-            strength = appears->strength;
+            bending = {static_cast<float>(appears->strength),
+                       static_cast<float>(appears->off_per_m)};
         }
         const Eigen::Affine3d T_sensor_shape =
             affine(T_world_sensor).inverse(Eigen::Isometry) * T_world_shape;
-        if (sampler.add(placed, shape, T_sensor_shape.cast<float>(), static_cast<float>(strength)))
+        if (sampler.add(placed, shape, T_sensor_shape.cast<float>(), bending))
             out.instances.push_back(placed.instance);
     }
     std::ranges::sort(out.instances);

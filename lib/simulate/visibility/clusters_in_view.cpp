@@ -98,9 +98,7 @@ ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
                      to_local * copy.T_world_mesh, copy.instance);
     }
     for (std::size_t k = 0; k < T_world_body.size(); ++k) {
-        const Pose& pose = T_world_body[k];
-        placer.place(bodies_[k].clusters, bodies_[k].whole,
-                     to_local * (Eigen::Translation3d(pose.translation) * pose.rotation),
+        placer.place(bodies_[k].clusters, bodies_[k].whole, to_local * affine(T_world_body[k]),
                      scene_.bodies[k].instance);
     }
     return out;

@@ -76,11 +76,8 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
     const std::string engine = is_octree ? "engine: octree" : "engine: strips";
     const std::string instead = "; use engine: auto or engine: rays";
-    if (is_octree || settings.type == EngineKind::strips) {
-        if (scene.sound_profile)
-            return engine + " needs straight paths of sound, and water.profile bends them" +
-                   instead;
-    }
+    if (scene.sound_profile && (is_octree || settings.type == EngineKind::strips))
+        return engine + " needs straight paths of sound, and water.profile bends them" + instead;
     if (!is_octree) return "";
     if (!scene.bodies.empty()) return engine + " does not support moving objects" + instead;
     if (!scene.copies.empty())

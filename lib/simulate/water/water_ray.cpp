@@ -161,7 +161,6 @@ std::optional<ApparentPlace> apparent_place(const SoundProfile& profile,
                                             const Eigen::Vector3d& place) {
     constexpr int max_steps = 20;
     constexpr double step_m = 0.01;
-    constexpr double min_spread = 0.1;  // as of rays: a gain of 20 dB at most
     const auto place_at = [&](const Eigen::Vector3d& apparent) {
         return place_of(profile, source, apparent.normalized(), apparent.norm());
     };
@@ -182,10 +181,10 @@ std::optional<ApparentPlace> apparent_place(const SoundProfile& profile,
         stretch.col(k) = (place_at(apparent + step) - place_at(apparent - step)) / (2.0 * step_m);
     }
     const Eigen::Vector3d along = stretch * apparent.normalized();
-    const double tube =
-        std::max(std::fabs(stretch.determinant()) / along.norm(), min_spread * min_spread);
-    return ApparentPlace{place, apparent, Eigen::Quaterniond::FromTwoVectors(along, apparent),
-                         1.0 / (tube * tube)};
+    const double tube = std::max(std::fabs(stretch.determinant()) / along.norm(), min_spread);
+    const auto R = Eigen::Quaterniond::FromTwoVectors(along, apparent);
+    return ApparentPlace{place, apparent, R, 1.0 / (tube * tube),
+                         (R * stretch - Eigen::Matrix3d::Identity()).norm()};
 }
 
 }  // namespace sonarsim

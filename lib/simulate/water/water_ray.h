@@ -42,12 +42,18 @@ double advance(const SoundProfile& profile, double longest_m, WaterRay& ray);
 Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& source,
                          const Eigen::Vector3d& direction, double range_m);
 
+/// The least width of a tube of rays, as a share of its width where sound goes straight: a two-way
+/// gain of 20 dB at most. Chosen, since rays lack the diffraction that limits the gain of a
+/// caustic.
+inline constexpr double min_spread = 0.1;
+
 /// The surroundings of a true place as an instrument receives them: x - place becomes
 /// R (x - place) + apparent, relative to the source. World.
 struct ApparentPlace {
     Eigen::Vector3d place, apparent;
     Eigen::Quaterniond R;
-    double strength;  ///< factor on the power of an echo, as sound converges or spreads
+    double strength;   ///< factor on the power of an echo, as sound converges or spreads
+    double off_per_m;  ///< a place so far from `place` is off by this, as R does not stretch
 };
 
 /// The inverse of place_of(); nothing if no ray that departs near the line of sight leads there.

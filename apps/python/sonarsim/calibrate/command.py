@@ -175,23 +175,23 @@ def all_figures(shaped, fits):
 def fit_by_figures(shaped, fits, fit):
     """The figures of a fit. Gain and noise are those of the start if more figures of the judged pings agree with these.
     CalibrationError if more still agree with the start than with the fit."""
-    def worse():
+    while True:
         rows = all_figures(shaped, fits)
-        return rows, sum(row[0].agrees for row in rows) - sum(row[2].agrees for row in rows)
-
-    rows, lost = worse()
-    if lost > 0 and any([fit.estimates.pop(key, None) for key in LEVEL_KEYS]):
+        lost = sum(row[0].agrees for row in rows) - sum(row[2].agrees for row in rows)
+        levels = [key for key in LEVEL_KEYS if key in fit.estimates]
+        if lost <= 0:
+            return rows
+        if not levels:
+            raise CalibrationError(f"{lost} figures of the judged pings fewer agree with the fit than with the start, so it is "
+                                   "not written: name a mission with their scene by --mission")
+        for key in levels:
+            del fit.estimates[key]
         for (start, _), one in zip(shaped, fits):
             one.level_db = start.noise_db - start.full_scale_db
-            for name in (*(key[9:] for key in LEVEL_KEYS), "tvg_absorption"):
+            for name in ("full_scale_db", "noise_db", "tvg_log", "tvg_absorption"):
                 one.instrument["receiver"][name] = start.instrument["receiver"].get(name)
         fit.notes[:] = [note for note in fit.notes if not note.startswith(("full_scale_db", "receiver.tvg_log"))]
         fit.notes.append("gain and noise are those of the start, with which more figures agree")
-        rows, lost = worse()
-    if lost > 0:
-        raise CalibrationError(f"{lost} figures of the judged pings fewer agree with the fit than with the start, so it is not "
-                               "written: name a mission with their scene by --mission")
-    return rows
 
 
 def table_of_passes(before, after):

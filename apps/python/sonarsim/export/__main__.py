@@ -86,18 +86,16 @@ def parse(arguments):
         for key, value in vars(options).items():
             if key not in allowed and value != parser.get_default(key):
                 parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
-    if options.oriented and (options.format != "yolo" or options.polygons):
-        parser.error("--oriented takes --format yolo and no --polygons")
     outlines = options.polygons or options.oriented
     for is_wrong, text in (
+            (options.oriented and (options.format != "yolo" or options.polygons), "--oriented takes --format yolo and no --polygons"),
             (options.polygons and options.format not in ("coco", "yolo"), "--polygons takes --format coco or yolo"),
             (outlines and options.format == "yolo" and options.box != "object", "--box: the outlines of yolo are the object's"),
             (not options.split and (options.gap is not None or options.rounds != 1), "--gap and --rounds take --split"),
-            (options.overlap and not options.tile, "--overlap takes --tile")):
+            (options.overlap and not options.tile, "--overlap takes --tile"),
+            (options.tile and options.overlap >= min(options.tile), "--overlap must be less than the sides of a tile")):
         if is_wrong:
             parser.error(text)
-    if options.tile and options.overlap >= min(options.tile):
-        parser.error("--overlap must be less than the sides of a tile")
     return options
 
 

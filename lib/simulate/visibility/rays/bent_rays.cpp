@@ -17,9 +17,6 @@ namespace {
 // A chord meets facets up to this share beyond its end, so that consecutive chords leave no crack.
 constexpr float chord_overlap = 1e-5F;
 constexpr int newton_steps = 3;
-// The least width of a ray tube, as a share of its width where sound goes straight: a two-way gain
-// of 20 dB at most. Chosen, since rays lack the diffraction that limits the gain of a caustic.
-constexpr double min_spread = 0.1;
 // A ray steeper than this has no azimuth.
 constexpr double steep_cosine = 1e-6;
 

@@ -54,8 +54,6 @@ class RaysEngine final : public VisibilityEngine {
     std::vector<bool> visible(const Pose& T_world_sensor,
                               std::span<const SightPoint> points) const override {
         if (!scene().sound_profile) return VisibilityEngine::visible(T_world_sensor, points);
-        // Apparent places are off by the sag of a ray, and by the bend over an object.
-        constexpr float slack_m = 0.05F;
         float reach_m = 0.0F;
         std::vector<Ray> rays;
         for (const SightPoint& point : points) {
@@ -67,7 +65,8 @@ class RaysEngine final : public VisibilityEngine {
         std::vector<bool> out;
         for (std::size_t k = 0; k < points.size(); ++k) {
             const float range = points[k].position.norm();
-            out.push_back(!(met[k].distance_m < range - slack_m - points[k].slack_m));
+            const float slack_m = points[k].slack_m + met[k].rounding_m;
+            out.push_back(!(met[k].distance_m < range - slack_m));
         }
         return out;
     }
