@@ -15,6 +15,16 @@ QUICK = ("--quick", "-j1", "--reference-rays", "1000000")
 
 
 class Inspect(Sandbox):
+    def test_a_survey_below_waves(self):
+        """Its first echo is that of the surface of the water, which is no object of the scene."""
+        self.write("mission.yaml", MISSION.split("sensors:")[0].replace("csv\n", "csv\n  water_surface: {height_m: 1, scatters: true}\n", 1)
+                   + "water: {wind_m_s: 8}\nsensors: {sss: {preset: sensors/sidescan_400khz.yaml, range_min_m: 0.5, range_max_m: 6}}\n")
+        for labels in ("[]", "[objects]"):
+            found = json.loads(self.succeeds("validate", "mission.yaml", "--json", "--set", f"output.labels={labels}").stdout)
+            survey = found["sensors"]["sss"]["survey"]
+            self.assertAlmostEqual(survey["first_echo_m"][0], 1, delta=0.01)
+            self.assertEqual(set(survey["seen_most"]), {"walls"})
+
     def test_a_scene(self):
         scene = json.loads(self.succeeds("inspect", "box.gltf", "--json").stdout)
         # Half-extents 2, 1.5, 2 in glTF axes; (x, y, z)_world = (x, -z, y)_gltf.

@@ -200,6 +200,9 @@ def check(folder):
             assert code == 0, stderr
             sums = [(folder / out / "SHA256SUMS").read_text() for out in ("two_threads", "out")]
             assert sums[0] == sums[1], "one thread makes other files than two"
+            done = subprocess.run([SONARSIM, "validate", "mission.json", "--overwrite", "-q"], cwd=folder, text=True,
+                                  capture_output=True, timeout=LONGEST_S)
+            assert done.returncode == 0, f"validate: exit code {done.returncode}: {done.stderr}"
     else:
         assert errors and stderr.splitlines()[-len(errors):] == errors, stderr
         assert not any("nan" in error.lower() for error in errors), stderr

@@ -12,6 +12,7 @@
 #include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/sample_kinds.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
@@ -184,6 +185,7 @@ bool take_samples(const View& view, const Samples& samples, const SceneObjects& 
         const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;
         echoes.take(range);
+        if (!kind_of(sample.kind).has_labels) continue;
         out.visible_m2[sample.instance] += sample.area_m2;
         if (!sees.empty()) sees[objects.object_of(sample.instance)] = 1;
     }

@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/scene/copies.h"
+#include "input/scene/seabed/seabed.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"
@@ -33,12 +34,15 @@ Extent sphere_around(const Eigen::AlignedBox3d& box, std::ptrdiff_t body) {
     return {box.center(), 0.5 * box.diagonal().norm(), body};
 }
 
+/// True for objects with a class or a name of the mission, but not for the rocks of a bed.
 bool is_wanted(const Mission& mission, const Scene& scene, std::size_t instance) {
-    if (instance < scene.instance_classes.size() && !scene.instance_classes[instance].empty())
-        return true;
-    return std::ranges::any_of(mission.scene.objects, [&](const ObjectConfig& object) {
-        return object.name == scene.instances[instance];
-    });
+    const std::string& name = scene.instances[instance];
+    const std::string class_name =
+        instance < scene.instance_classes.size() ? scene.instance_classes[instance] : "";
+    if (mission.scene.seabed && class_name == rock_class && name.starts_with("rock_")) return false;
+    if (!class_name.empty()) return true;
+    return std::ranges::any_of(mission.scene.objects,
+                               [&](const ObjectConfig& object) { return object.name == name; });
 }
 
 /// One for each instance, wherever its triangles are kept; empty if it has none.
