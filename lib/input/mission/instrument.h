@@ -156,8 +156,7 @@ inline constexpr Limits raised_levels_db{0.0, 200.0};
 /// From a Hamming taper to no taper.
 inline constexpr Limits side_lobes_db{-42.0, -13.0};
 
-template <class Visitor>
-void describe(Visitor& v, ElementsConfig& c) {
+void describe(auto& v, ElementsConfig& c) {
     v.number("gain_error_db", c.gain_error_db, between(0, 6),
              "standard deviation of the gains of the array's elements");
     v.number("phase_error_deg", c.phase_error_deg, between(0, 60),
@@ -167,8 +166,7 @@ void describe(Visitor& v, ElementsConfig& c) {
              "datasets");
 }
 
-template <class Visitor>
-void describe(Visitor& v, BeamConfig& c) {
+void describe(auto& v, BeamConfig& c) {
     v.number("width_deg", c.width_deg, between(0.05, 60),
              "one-way half-power beamwidth: of the receiving line array, across a scanning sonar's "
              "beam, along track of a side-scan sonar, or of an echosounder's cone");
@@ -210,8 +208,7 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
-template <class Visitor>
-void describe(Visitor& v, PulseConfig& c) {
+void describe(auto& v, PulseConfig& c) {
     v.number("resolution_m", c.resolution_m, between(0, 1000),
              "half-power width in range of a point target's echo; 0 means one range bin");
     // Speckle cells have this length. The number of much shorter cells would overflow.
@@ -224,8 +221,7 @@ void describe(Visitor& v, PulseConfig& c) {
              "highest range side lobe of the compressed pulse");
 }
 
-template <class Visitor>
-void describe(Visitor& v, SpeckleConfig& c) {
+void describe(auto& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
@@ -234,8 +230,7 @@ void describe(Visitor& v, SpeckleConfig& c) {
 }
 
 /// The keys of a receiver besides noise, gain and companding.
-template <class Visitor>
-void describe_chain(Visitor& v, ReceiverConfig& c) {
+void describe_chain(auto& v, ReceiverConfig& c) {
     v.number(
         "samples", c.samples, between(1, 100),
         "independent samples of a range bin, of pulses, bands or ranges, of which one value is "
@@ -273,8 +268,7 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "loss of the outermost beams, from the middle on with the square of their number");
 }
 
-template <class Visitor>
-void describe(Visitor& v, ReceiverConfig& c) {
+void describe(auto& v, ReceiverConfig& c) {
     v.number("noise_db", c.noise_db, any_level_db,
              "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
              "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
@@ -307,8 +301,7 @@ void describe(Visitor& v, ReceiverConfig& c) {
 }
 
 /// Levels are in one unit: all in dB re 1 uPa, or all relative to the source level.
-template <class Visitor>
-void require_one_unit(Visitor& v, const InstrumentConfig& c) {
+void require_one_unit(auto& v, const InstrumentConfig& c) {
     const bool absolute = c.source_level_db && !is_relative_source(*c.source_level_db);
     v.require(!absolute || !has_relative_level(c.receiver), {"source_level_db", "receiver"},
               "source_level_db is in dB re 1 uPa, where a noise_db or "
@@ -316,8 +309,7 @@ void require_one_unit(Visitor& v, const InstrumentConfig& c) {
               "or give source_level_db: 0, to which they are then relative");
 }
 
-template <class Visitor>
-void describe(Visitor& v, InstrumentConfig& c) {
+void describe(auto& v, InstrumentConfig& c) {
     v.number("frequency_hz", c.frequency_hz, between(1e3, 1e7), "frequency of the sound");
     v.number("source_level_db", c.source_level_db, any_level_db,
              "source level, re 1 uPa at 1 m; with 0 all levels are relative to it. `auto` is that "

@@ -86,22 +86,19 @@ inline bool is_folder_name(std::string_view name) {
            name.find('/') == std::string_view::npos && name != checksums_name;
 }
 
-template <class Visitor>
-void describe(Visitor& v, AccuracyConfig& c) {
+void describe(auto& v, AccuracyConfig& c) {
     v.number("relative_l1", c.relative_l1, between(AccuracyConfig::min_relative_l1, 0.5),
              "error goal of the image without noise: the sum of its absolute errors over its sum. "
              "The sampling is derived from it");
 }
 
-template <class Visitor>
-void describe(Visitor& v, OctreeConfig& c) {
+void describe(auto& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
     v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
              "edge of the octree's leaves; the octree is the paper's, a baseline");
 }
 
-template <class Visitor>
-void describe(Visitor& v, ClassConfig& c) {
+void describe(auto& v, ClassConfig& c) {
     v.text("nodes", c.nodes,
            "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
     v.text("materials", c.materials,
@@ -118,8 +115,7 @@ void describe(Visitor& v, ClassConfig& c) {
 inline constexpr Choice<MaskKind> mask_kinds[]{{"outline", MaskKind::outline},
                                                {"echo", MaskKind::echo}};
 
-template <class Visitor>
-void describe(Visitor& v, LabelConfig& c) {
+void describe(auto& v, LabelConfig& c) {
     v.text("background", c.background,
            "background classes, which are not objects and have no contrast, shadow or visible "
            "share. `auto` stands "
@@ -135,8 +131,7 @@ void describe(Visitor& v, LabelConfig& c) {
               "'shadow' needs mask: outline");
 }
 
-template <class Visitor>
-void describe(Visitor& v, Mission& c) {
+void describe(auto& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
               "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");

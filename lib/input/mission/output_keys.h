@@ -53,8 +53,7 @@ inline constexpr Choice<Label> label_names[]{
     {"direct_only", Label::direct_only}, {"multipath_only", Label::multipath_only},
     {"objects", Label::objects},         {"fan", Label::fan}};
 
-template <class Visitor>
-void describe(Visitor& v, OutputConfig& c) {
+void describe(auto& v, OutputConfig& c) {
     v.path("folder", c.folder, "folder of the dataset; default: out/NAME in the current directory");
     v.flag("polar", c.polar,
            "write every ping of imaging and profiling sonars as float32, in .npy files");

@@ -33,8 +33,7 @@ struct StreaksConfig {
 inline constexpr Choice<StreakMode> streak_modes[]{
     {"none", StreakMode::none}, {"add", StreakMode::add}, {"reduce", StreakMode::reduce}};
 
-template <class Visitor>
-void describe(Visitor& v, NoiseConfig& c) {
+void describe(auto& v, NoiseConfig& c) {
     v.number("range_lambda_m", c.range_lambda_m, at_least(0),
              "mean of the exponential range noise; 0 is off, and a side-scan sonar has none");
     // The number of a cell has 21 bits (core/random.h), so draws repeat after 210 m if the edge
@@ -55,8 +54,7 @@ void describe(Visitor& v, NoiseConfig& c) {
              "and profiling sonars, which halves their images, and 1 for others");
 }
 
-template <class Visitor>
-void describe(Visitor& v, StreaksConfig& c) {
+void describe(auto& v, StreaksConfig& c) {
     v.choice("mode", c.mode, streak_modes,
              "azimuth streaks: `add` brightens a range row with too many echoes at normal "
              "incidence, `reduce` darkens it");

@@ -159,15 +159,13 @@ inline constexpr Choice<ObjectPlace> object_places[]{{"free", ObjectPlace::free}
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
 
-template <class Visitor>
-void describe_mesh(Visitor& v, MeshConfig& c) {
+void describe_mesh(auto& v, MeshConfig& c) {
     v.choice("units", c.units, length_units, "unit of the file's lengths");
     v.choice("up", c.up, up_axes, "axis of the file that points up; glTF has y, others often z");
     v.note_given("up", c.up_given);
 }
 
-template <class Visitor>
-void describe(Visitor& v, ObjectConfig& c) {
+void describe(auto& v, ObjectConfig& c) {
     v.text("name", c.name,
            "name of the one instance that all nodes of the file form; without it each node is an "
            "instance of its own");
@@ -202,8 +200,7 @@ void describe(Visitor& v, ObjectConfig& c) {
 
 inline constexpr Limits any_share_buried = {-10, 1};
 
-template <class Visitor>
-void describe(Visitor& v, ScatterConfig& c) {
+void describe(auto& v, ScatterConfig& c) {
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
     v.text("stock", c.stock, "kinds of things of the program, in place of `files`");
     v.path("files", c.files,
@@ -247,24 +244,21 @@ void describe(Visitor& v, ScatterConfig& c) {
               {"count"}, "'count' must be a whole number or two of them");
 }
 
-template <class Visitor>
-void describe(Visitor& v, ClutterConfig& c) {
+void describe(auto& v, ClutterConfig& c) {
     v.number("density_per_m2", c.density_per_m2, between(0, 1e3), "as in `scatter`", required);
     v.text("stock", c.stock, "default: stones, boards, panels, ropes, weed and others");
     v.number("scale", c.scale, {1.0 / largest_scale, largest_scale}, "as in `scatter`");
     v.number("bury", c.bury, any_share_buried, "as in `scatter`");
 }
 
-template <class Visitor>
-void describe(Visitor& v, AreaConfig& c) {
+void describe(auto& v, AreaConfig& c) {
     v.array("min_m", c.min_m, any_position_m, "its least x and y", required);
     v.array("max_m", c.max_m, any_position_m, "its largest x and y", required);
     v.require(c.min_m[0] < c.max_m[0] && c.min_m[1] < c.max_m[1], {"min_m", "max_m"},
               "min_m must be below max_m in x and in y");
 }
 
-template <class Visitor>
-void describe(Visitor& v, HeightmapConfig& c) {
+void describe(auto& v, HeightmapConfig& c) {
     v.path("file", c.file,
            "an image of one channel, PNG, TIFF (GeoTIFF) or OpenEXR, whose pixels are heights and "
            "whose first row is the north",
@@ -281,8 +275,7 @@ void describe(Visitor& v, HeightmapConfig& c) {
     v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");
 }
 
-template <class Visitor>
-void describe(Visitor& v, WaterSurfaceConfig& c) {
+void describe(auto& v, WaterSurfaceConfig& c) {
     v.number("height_m", c.height_m, any_position_m, "height of the surface in the world",
              required);
     v.number("roughness", c.roughness, between(0, 1),
@@ -307,8 +300,7 @@ inline bool names_ground(const SceneConfig& c) {
     });
 }
 
-template <class Visitor>
-void describe(Visitor& v, SceneConfig& c) {
+void describe(auto& v, SceneConfig& c) {
     v.path("file", c.file,
            "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects, a "
            "heightmap or a seabed");

@@ -66,8 +66,7 @@ struct SeabedConfig {
 /// The instance that a seabed makes, besides its rocks.
 inline constexpr const char* seabed_instance = "seabed";
 
-template <class Visitor>
-void describe(Visitor& v, BedRoughnessConfig& c) {
+void describe(auto& v, BedRoughnessConfig& c) {
     v.number(
         "spectral_strength_cm4", c.spectral_strength_cm4, between(0, 100),
         "strength w of the spectrum of heights, W(K) = w / (K^2 + K0^2)^(g/2) for K in rad/cm, "
@@ -80,23 +79,20 @@ void describe(Visitor& v, BedRoughnessConfig& c) {
              "wavelength 2 pi / K0 above which the spectrum is flat");
 }
 
-template <class Visitor>
-void describe(Visitor& v, BedRippleConfig& c) {
+void describe(auto& v, BedRippleConfig& c) {
     v.number("height_m", c.height_m, between(0, 100), "height from trough to crest", required);
     v.number("length_m", c.length_m, above(0), "length from crest to crest", required);
     v.number("direction_deg", c.direction_deg, any_angle_deg,
              "direction across the crests, from x towards y");
 }
 
-template <class Visitor>
-void describe(Visitor& v, BedSedimentConfig& c) {
+void describe(auto& v, BedSedimentConfig& c) {
     v.text("material", c.material, "its material", required);
     v.number("share", c.share, above(0), "its share of the bed, as a part of the sum of all shares",
              required);
 }
 
-template <class Visitor>
-void describe(Visitor& v, BedRockConfig& c) {
+void describe(auto& v, BedRockConfig& c) {
     v.number("density_per_m2", c.density_per_m2, between(0, 1e4),
              "mean number per square metre, as in a Poisson process", required);
     v.array("diameter_m", c.diameter_m, between(1e-3, 1e3),
@@ -111,8 +107,7 @@ void describe(Visitor& v, BedRockConfig& c) {
               "'diameter_m' is the least and the largest; the first must not be above the second");
 }
 
-template <class Visitor>
-void describe(Visitor& v, SeabedConfig& c) {
+void describe(auto& v, SeabedConfig& c) {
     v.path("preset", c.preset,
            "YAML file with keys of this section, such as those of configs/seabeds; keys given here "
            "override those of the file");
@@ -154,8 +149,7 @@ struct SedimentMapConfig : AppliedMapConfig {
 };
 
 /// The keys that say where an image lies.
-template <class Visitor, class Config>
-void describe_image_place(Visitor& v, Config& c) {
+void describe_image_place(auto& v, AppliedMapConfig& c) {
     v.number("pixel_m", c.pixel_m, above(0),
              "size of a pixel; `auto` takes the GeoTIFF tags or the world file", or_auto);
     v.array("origin_m", c.origin_m, any_position_m,
@@ -163,15 +157,13 @@ void describe_image_place(Visitor& v, Config& c) {
             "corner");
 }
 
-template <class Visitor>
-void describe(Visitor& v, AppliedMapConfig& c) {
+void describe(auto& v, AppliedMapConfig& c) {
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
 }
 
-template <class Visitor>
-void describe(Visitor& v, SedimentMapConfig& c) {
+void describe(auto& v, SedimentMapConfig& c) {
     describe(v, static_cast<AppliedMapConfig&>(c));
     v.text("materials", c.materials,
            "the material of each value, as {1: sand, 2: gravel}, or of each colour, as "

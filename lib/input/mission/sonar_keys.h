@@ -104,8 +104,7 @@ inline constexpr Choice<MultipathMethod> multipath_methods[]{{"none", MultipathM
 inline constexpr Choice<ShutterOrder> shutter_orders[]{{"in_turn", ShutterOrder::in_turn},
                                                        {"interleaved", ShutterOrder::interleaved}};
 
-template <class Visitor>
-void describe(Visitor& v, ShutterConfig& c) {
+void describe(auto& v, ShutterConfig& c) {
     v.number("groups", c.groups, between(1, 64),
              "number of groups in which the beams transmit, one after the other; a ping takes "
              "nearly that many times as long to render");
@@ -116,15 +115,13 @@ void describe(Visitor& v, ShutterConfig& c) {
              "time from one group to the next; 0: until the sound of range_max_m is back");
 }
 
-template <class Visitor>
-void describe(Visitor& v, MountConfig& c) {
+void describe(auto& v, MountConfig& c) {
     v.array("translation_m", c.translation_m, any_position_m,
             "position of the sonar in the vehicle's frame");
     v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw on top of the default mount");
 }
 
-template <class Visitor>
-void describe(Visitor& v, MultipathConfig& c) {
+void describe(auto& v, MultipathConfig& c) {
     v.choice("method", c.method, multipath_methods,
              "multipath via a second surface: `cluster` traces one ray for a cluster of samples, "
              "`exact` one for every sample");
@@ -135,8 +132,7 @@ void describe(Visitor& v, MultipathConfig& c) {
 }
 
 /// Checks that the angles of a calibrated sonar hold its beam.
-template <class Visitor>
-void require_insonified(Visitor& v, const SonarConfig& c) {
+void require_insonified(auto& v, const SonarConfig& c) {
     const BeamConfig& beam = c.instrument.beam;
     const bool forward = beam.aperture == Aperture::line || beam.aperture == Aperture::head;
     v.require(!forward || c.azimuth_deg < 180.0, {"azimuth_deg", "model"},
@@ -160,8 +156,7 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
               "least instrument.beam.width_deg; 3 times the width holds the main lobe");
 }
 
-template <class Visitor>
-void describe_motion(Visitor& v, SonarConfig& c) {
+void describe_motion(auto& v, SonarConfig& c) {
     v.flag("moves_in_ping", c.moves_in_ping,
            "the sonar moves and turns during a ping; otherwise it is at rest. Objects and targets "
            "in the water always are");
@@ -175,8 +170,7 @@ void describe_motion(Visitor& v, SonarConfig& c) {
     }
 }
 
-template <class Visitor>
-void describe(Visitor& v, SonarConfig& c) {
+void describe(auto& v, SonarConfig& c) {
     const SonarKeys& keys = v.one_of("kind", c, "the kind of sonar");
     v.path("preset", c.preset,
            "YAML file with keys of this section, such as those of configs/sensors; keys given here "

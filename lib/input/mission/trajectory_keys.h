@@ -84,29 +84,25 @@ struct VehicleConfig {
 using TrajectoryConfig = std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig,
                                       LawnmowerTrajectoryConfig, LookAtTrajectoryConfig>;
 
-template <class Visitor>
-void describe(Visitor& v, FileTrajectoryConfig& c) {
+void describe(auto& v, FileTrajectoryConfig& c) {
     v.path("file", c.file, "timed poses, a .csv or a TUM .txt or .tum", required);
     v.number("rate_hz", c.rate_hz, at_least(0),
              "poses are interpolated at this rate; 0 pings at every pose of the file");
 }
 
-template <class Visitor>
-void describe(Visitor& v, WaypointConfig& c) {
+void describe(auto& v, WaypointConfig& c) {
     v.array("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
     v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
 }
 
-template <class Visitor>
-void describe(Visitor& v, WaypointTrajectoryConfig& c) {
+void describe(auto& v, WaypointTrajectoryConfig& c) {
     v.list_of("waypoints", c.waypoints, 2,
               "poses in the order of the trajectory, joined by straight legs");
     v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
     v.number("rate_hz", c.rate_hz, above(0), "poses per second");
 }
 
-template <class Visitor>
-void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
+void describe(auto& v, LawnmowerTrajectoryConfig& c) {
     v.array("area_min_m", c.area_min_m, any_position_m,
             "corner of the rectangle with the least x and y", required);
     v.array("area_max_m", c.area_max_m, any_position_m,
@@ -129,8 +125,7 @@ void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
         "'lawnmower' needs one of z_m, a height in the world, and altitude_m, above the bottom");
 }
 
-template <class Visitor>
-void describe(Visitor& v, LookAtTrajectoryConfig& c) {
+void describe(auto& v, LookAtTrajectoryConfig& c) {
     v.text("look_at", c.look_at,
            "each pose has one of the `objects`, of a class, or of several (`mine, tyre`), in view. "
            "`objects` leaves out those longer than range_m, such as walls",
@@ -144,8 +139,7 @@ void describe(Visitor& v, LookAtTrajectoryConfig& c) {
     v.number("height_m", c.height_m, any_position_m, "height above its lowest point");
 }
 
-template <class Visitor>
-void describe(Visitor& v, TrajectoryConfig& c) {
+void describe(auto& v, TrajectoryConfig& c) {
     v.one_of(c, {"file", "waypoints", "lawnmower", "look_at"});
     if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
         v.section("lawnmower", *lawnmower, "parallel lines over a rectangle, to and fro", required);
@@ -154,8 +148,7 @@ void describe(Visitor& v, TrajectoryConfig& c) {
     }
 }
 
-template <class Visitor>
-void describe(Visitor& v, MotionConfig& c) {
+void describe(auto& v, MotionConfig& c) {
     constexpr Limits deviation_m{0.0, 100.0};
     constexpr Limits deviation_deg{0.0, 45.0};
     v.array("position_m", c.position_m, deviation_m,
@@ -165,16 +158,14 @@ void describe(Visitor& v, MotionConfig& c) {
              "period of the strongest waves; the spectrum is that of Pierson and Moskowitz");
 }
 
-template <class Visitor>
-void describe(Visitor& v, NavigationConfig& c) {
+void describe(auto& v, NavigationConfig& c) {
     v.number("position_m", c.position_m, at_least(0), "of x and of y, drawn for every pose");
     v.number("depth_m", c.depth_m, at_least(0), "of z, drawn for every pose");
     v.number("tilt_deg", c.tilt_deg, between(0, 45), "of roll and of pitch, drawn for every pose");
     v.number("heading_deg", c.heading_deg, between(0, 180), "of the heading, drawn for every pose");
 }
 
-template <class Visitor>
-void describe(Visitor& v, VehicleConfig& c) {
+void describe(auto& v, VehicleConfig& c) {
     v.array("offset_m", c.offset_m, any_position_m,
             "added to the position of every pose: x, y, z in the world");
     v.array("turn_deg", c.turn_deg, any_angle_deg,

@@ -59,8 +59,7 @@ struct Variant {
 inline constexpr Choice<VaryPer> vary_pers[]{
     {"variant", VaryPer::variant}, {"dataset", VaryPer::dataset}, {"ping", VaryPer::ping}};
 
-template <class Visitor>
-void describe(Visitor& v, VaryConfig& c) {
+void describe(auto& v, VaryConfig& c) {
     constexpr Limits any{-1e18, 1e18};
     v.path("preset", c.preset,
            "a file of rules, below the mission's folder or one that came with the program, such as "

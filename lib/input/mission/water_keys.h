@@ -50,8 +50,7 @@ struct WaterConfig {
 /// All water scatters more than -200 dB, and every cloud of bubbles less than 0 dB.
 inline constexpr Limits volume_strengths_db{-200.0, 0.0};
 
-template <class Visitor>
-void describe(Visitor& v, WaterLayerConfig& c) {
+void describe(auto& v, WaterLayerConfig& c) {
     v.array("depth_m", c.depth_m, between(0, 12000),
             "top and bottom of the layer, below scene.water_surface", required);
     v.require(c.depth_m[0] < c.depth_m[1], {"depth_m"},
@@ -66,8 +65,7 @@ inline constexpr Choice<NamedProfile> named_profiles[]{{"none", NamedProfile::no
                                                        {"mixed_layer", NamedProfile::mixed_layer},
                                                        {"summer", NamedProfile::summer}};
 
-template <class Visitor>
-void describe(Visitor& v, SoundProfileConfig& c) {
+void describe(auto& v, SoundProfileConfig& c) {
     v.choice("named", c.named, named_profiles,
              "a profile that is made from temperatures and water.salinity_psu: `isothermal` is "
              "water of water.temperature_c at all depths; `mixed_layer` has it down to 50 m and "
@@ -78,8 +76,7 @@ void describe(Visitor& v, SoundProfileConfig& c) {
               "a profile of sound speed needs exactly one of 'named' and 'file'");
 }
 
-template <class Visitor>
-void describe(Visitor& v, WaterConfig& c) {
+void describe(auto& v, WaterConfig& c) {
     v.number("density_kg_m3", c.density_kg_m3, between(900, 1300), "density of the water");
     v.number("sound_speed_m_s", c.sound_speed_m_s, sound_speeds_m_s,
              "speed of sound in the water; `auto` computes it from temperature, salinity "
@@ -160,8 +157,7 @@ inline constexpr Choice<ParticleRegion> particle_regions[]{
 /// From a grain of dust to a ship.
 inline constexpr Limits target_strengths_db{-200.0, 60.0};
 
-template <class Visitor>
-void describe(Visitor& v, ParticlesConfig& c) {
+void describe(auto& v, ParticlesConfig& c) {
     v.text("name", c.name,
            "name of the group; single targets are the instances NAME_1, NAME_2 and so on",
            required);
