@@ -147,8 +147,12 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         const YamlNode* node = node_.find(key);
         if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
     }
-    errors_.attempt(
-        [&] { refuse(last != nullptr ? *last : node_, message + values_text(numbers_, keys)); });
+    std::vector<std::string> values;
+    for (const auto& [key, value] : numbers_) {
+        if (std::ranges::find(keys, key) != keys.end()) values.push_back(key + " is " + value);
+    }
+    const std::string ending = values.empty() ? "" : " (" + listed(values) + ")";
+    errors_.attempt([&] { refuse(last != nullptr ? *last : node_, message + ending); });
     faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 

@@ -42,7 +42,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
         constexpr bool is_number = std::is_same_v<Type, NumberType> || requires {
             std::tuple_size<T>::value;
         };
-        if constexpr (is_number) numbers_.emplace_back(key, yaml_of(type, value));
+        if constexpr (is_number) numbers_.emplace_back(key, type.yaml(value));
     }
 
     template <class T>
@@ -148,7 +148,8 @@ class MissionReader : public KeyVisitor<MissionReader> {
     ErrorList& errors_;
     std::vector<std::string> known_;
     std::vector<std::string> faulty_;  ///< keys with an error
-    KeyTexts numbers_;                 ///< numbers read so far, by key
+    /// Numbers read so far as YAML, by key.
+    std::vector<std::pair<std::string, std::string>> numbers_;
 };
 
 }  // namespace sonarsim

@@ -47,7 +47,7 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
     void value(const char* key, const T& value, const Type& type, const char* meaning,
                Presence presence) {
         const TypeNote note = type.note(value);
-        const std::string yaml = yaml_of(type, value);
+        const std::string yaml = type.yaml(value);
         add(key, note, meaning, presence == required, yaml.empty() ? note.empty : yaml);
     }
 

@@ -28,7 +28,7 @@ class MissionWriter : public KeyVisitor<MissionWriter> {
     template <class T, class Type>
     void value(const char* key, const T& value, const Type& type, const char* /*meaning*/,
                Presence) {
-        const std::string text = yaml_of(type, value);
+        const std::string text = type.yaml(value);
         if (!text.empty()) line(key, text);
     }
 

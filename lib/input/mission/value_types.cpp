@@ -124,10 +124,21 @@ void NumberType::read(const YamlNode& node, const char* key, std::array<double, 
         value.fill(read_number(node, key, limits));
         return;
     }
-    read_numbers(node, key, value, limits);
+    ArrayType{limits}.read(node, key, value);
     if (value[0] <= value[1]) return;
     refuse(node, "'" + std::string(key) + "': the first number must not be above the second, in [" +
                      number_text(value[0]) + ", " + number_text(value[1]) + "]");
+}
+
+void ArrayType::read(const YamlNode& node, const char* key, std::span<double> values) const {
+    const std::string wanted = "a list of " + std::to_string(values.size()) + " numbers";
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
+    if (node.items.size() != values.size()) {
+        refuse(node, "'" + std::string(key) + "' must be " + wanted + ", not of " +
+                         std::to_string(node.items.size()));
+    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = read_number(node.items[i], key, limits);
 }
 
 void TextType::read(const YamlNode& node, const char* key, std::string& value) const {
@@ -156,15 +167,6 @@ void TextType::read(const YamlNode& node, const char* key, YamlValues& values) c
         values.items.push_back(flow_text(item));
 }
 
-std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys) {
-    std::string out;
-    for (const auto& [key, value] : values) {
-        if (std::ranges::find(keys, key) == keys.end()) continue;
-        out += (out.empty() ? " (" : ", ") + key + " is " + value;
-    }
-    return out.empty() ? "" : out + ")";
-}
-
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names) {
     if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
     const auto name = std::ranges::find(names, node.text);
@@ -173,18 +175,6 @@ std::size_t index_of(const YamlNode& node, const char* key, const std::vector<st
                          did_you_mean(node.text, names) + "; known: " + listed(names));
     }
     return static_cast<std::size_t>(name - names.begin());
-}
-
-void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
-                  const Limits& limits) {
-    const std::string wanted = "a list of " + std::to_string(values.size()) + " numbers";
-    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
-    if (node.items.size() != values.size()) {
-        refuse(node, "'" + std::string(key) + "' must be " + wanted + ", not of " +
-                         std::to_string(node.items.size()));
-    }
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = read_number(node.items[i], key, limits);
 }
 
 std::vector<bool> chosen_of(const YamlNode& node, const char* key,

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
-#include <iterator>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -27,7 +27,6 @@
 namespace sonarsim {
 
 [[noreturn]] void refuse(const YamlNode& node, const std::string& what);
-
 /// Throws "'key' must be WANTED, not FOUND".
 [[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
                               const std::string& wanted);
@@ -35,18 +34,8 @@ namespace sonarsim {
 /// "at least 0" for a number that is not within the limits, else "".
 std::string fault_of(double value, const Limits& limits);
 
-/// Values as text, by key.
-using KeyTexts = std::vector<std::pair<std::string, std::string>>;
-
-/// " (key is 1, other is 2)": those of `keys` that have a value; "" if none has.
-std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys);
-
 /// Returns the index of the node's text in `names`.
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);
-
-/// Reads a list of exactly as many numbers as `values` has.
-void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
-                  const Limits& limits);
 
 /// Returns for each name whether it is chosen: `true` chooses all, `false` none, a list some.
 std::vector<bool> chosen_of(const YamlNode& node, const char* key,
@@ -61,10 +50,7 @@ inline std::string yaml_text(double value) {
     if (exponent < text.find('.')) text.insert(exponent, ".0");
     return text;
 }
-inline std::string yaml_text(int value) {
-    return std::to_string(value);
-}
-inline std::string yaml_text(std::uint64_t value) {
+inline std::string yaml_text(std::integral auto value) {
     return std::to_string(value);
 }
 inline std::string yaml_text(bool value) {
@@ -83,28 +69,18 @@ inline std::string yaml_text(const std::filesystem::path& value) {
 }
 
 /// "[1, 2]"; "" for no items.
-template <class Items, class ToText>
-std::string yaml_list(const Items& items, const ToText& to_text) {
-    std::string list;
-    for (const auto& item : items)
-        list += (list.empty() ? "[" : ", ") + to_text(item);
-    return list.empty() ? "" : list + "]";
+inline std::string yaml_text(const YamlValues& values) {
+    return values.items.empty() ? "" : "[" + listed(values.items) + "]";
 }
-
-template <class T>
-std::string yaml_text(const std::vector<T>& values) {
-    return yaml_list(values, [](const T& value) { return yaml_text(value); });
-}
-template <std::size_t N>
-std::string yaml_text(const std::array<double, N>& values) {
-    return yaml_list(values, [](double value) { return yaml_text(value); });
+std::string yaml_text(const std::ranges::range auto& values) {
+    YamlValues texts;
+    for (const auto& value : values)
+        texts.items.push_back(yaml_text(value));
+    return yaml_text(texts);
 }
 template <std::size_t N>
 std::string yaml_text(const std::optional<std::array<double, N>>& values) {
     return values ? yaml_text(*values) : "";
-}
-inline std::string yaml_text(const YamlValues& values) {
-    return yaml_list(values.items, [](const std::string& item) { return item; });
 }
 inline std::string yaml_text(const Renaming& values) {
     std::string map;
@@ -139,33 +115,29 @@ struct NumberType {
         return automatic ? note(std::optional<double>()) : TypeNote{"number", limits};
     }
     TypeNote note(const std::optional<double>&) const { return {"number", limits, {"auto"}}; }
-    TypeNote note(int) const { return {"whole number", limits}; }
-    TypeNote note(std::uint64_t) const { return {"whole number", limits}; }
+    TypeNote note(std::integral auto) const { return {"whole number", limits}; }
     TypeNote note(const std::array<double, 2>&) const {
         return {"number or [least, largest]", limits};
     }
 };
 
-/// A list of numbers.
+/// A list of exactly as many numbers as the value has.
 struct ArrayType {
     Limits limits;
 
-    template <std::size_t N>
-    void read(const YamlNode& node, const char* key, std::array<double, N>& values) const {
-        read_numbers(node, key, values, limits);
-    }
+    void read(const YamlNode& node, const char* key, std::span<double> values) const;
     template <std::size_t N>
     void read(const YamlNode& node, const char* key,
               std::optional<std::array<double, N>>& values) const {
-        read_numbers(node, key, values.emplace(), limits);
+        read(node, key, values.emplace());
     }
-    template <std::size_t N>
-    TypeNote note(const std::array<double, N>&) const {
-        return {std::to_string(N) + " numbers", limits};
+    std::string yaml(const auto& values) const { return yaml_text(values); }
+    TypeNote note(std::span<const double> values) const {
+        return {std::to_string(values.size()) + " numbers", limits};
     }
     template <std::size_t N>
     TypeNote note(const std::optional<std::array<double, N>>&) const {
-        return {std::to_string(N) + " numbers", limits};
+        return note(std::array<double, N>{});
     }
 };
 
@@ -175,6 +147,7 @@ struct TextType {
     void read(const YamlNode& node, const char* key, std::vector<std::string>& values) const;
     void read(const YamlNode& node, const char* key, Renaming& values) const;
     void read(const YamlNode& node, const char* key, YamlValues& values) const;
+    std::string yaml(const auto& value) const { return yaml_text(value); }
     TypeNote note(const std::string&) const { return {"text"}; }
     TypeNote note(const std::vector<std::string>&) const {
         return {.name = "list of texts", .empty = "[]"};
@@ -185,6 +158,7 @@ struct TextType {
 
 struct FlagType {
     void read(const YamlNode& node, const char* key, bool& value) const;
+    std::string yaml(bool value) const { return yaml_text(value); }
     TypeNote note(bool) const { return {"true or false"}; }
 };
 
@@ -194,6 +168,7 @@ struct PathType {
               const std::filesystem::path& base_folder) const;
     void read(const YamlNode& node, const char* key, std::vector<std::filesystem::path>& paths,
               const std::filesystem::path& base_folder) const;
+    std::string yaml(const auto& value) const { return yaml_text(value); }
     TypeNote note(const std::filesystem::path&) const { return {"path"}; }
     TypeNote note(const std::vector<std::filesystem::path>&) const {
         return {"path or list of paths"};
@@ -227,53 +202,39 @@ struct SubsetType {
         }
     }
     std::string yaml(const std::vector<T>& values) const {
-        std::vector<Choice<T>> chosen;
-        std::ranges::copy_if(choices, std::back_inserter(chosen), [&](const Choice<T>& one) {
-            return std::ranges::find(values, one.value) != values.end();
-        });
-        if (chosen.empty()) return "false";
-        return yaml_list(chosen, [](const Choice<T>& one) { return std::string(one.name); });
+        YamlValues chosen;
+        for (const Choice<T>& one : choices) {
+            if (std::ranges::find(values, one.value) != values.end())
+                chosen.items.emplace_back(one.name);
+        }
+        return chosen.items.empty() ? "false" : yaml_text(chosen);
     }
     TypeNote note(const std::vector<T>&) const {
         return {"true, false or a list", {}, names_of(choices)};
     }
 };
 
-/// A value as YAML.
-template <class Type, class T>
-std::string yaml_of(const Type& type, const T& value) {
-    if constexpr (requires { type.yaml(value); }) {
-        return type.yaml(value);
-    } else {
-        return yaml_text(value);
-    }
-}
-
 /// The base of a visitor of the keys in mission.h. It passes keys with one value to the visitor's
 /// method value(key, value, type, meaning, presence).
 template <class Visitor>
 class KeyVisitor {
   public:
-    template <class T>
-    void number(const char* key, T& value, const Limits& limits, const char* meaning,
+    void number(const char* key, auto& value, const Limits& limits, const char* meaning,
                 Presence presence = Presence::optional) {
         self().value(key, value, NumberType{limits, presence == or_auto}, meaning, presence);
     }
     void flag(const char* key, bool& value, const char* meaning) {
         self().value(key, value, FlagType{}, meaning, Presence::optional);
     }
-    template <class T>
-    void text(const char* key, T& value, const char* meaning,
+    void text(const char* key, auto& value, const char* meaning,
               Presence presence = Presence::optional) {
         self().value(key, value, TextType{}, meaning, presence);
     }
-    template <class T>
-    void path(const char* key, T& value, const char* meaning,
+    void path(const char* key, auto& value, const char* meaning,
               Presence presence = Presence::optional) {
         self().value(key, value, PathType{}, meaning, presence);
     }
-    template <class T>
-    void array(const char* key, T& values, const Limits& limits, const char* meaning,
+    void array(const char* key, auto& values, const Limits& limits, const char* meaning,
                Presence presence = Presence::optional) {
         self().value(key, values, ArrayType{limits}, meaning, presence);
     }
