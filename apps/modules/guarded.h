@@ -7,8 +7,7 @@
 
 /// Runs a function; no exception may reach the program. Returns 0, or 1 with the reason in `error`,
 /// which ends with a zero.
-template <class Run>
-int guarded(char* error, std::size_t error_size, const Run& run) {
+int guarded(char* error, std::size_t error_size, const auto& run) {
     try {
         run();
         return 0;

@@ -33,8 +33,7 @@ class Descriptor {
 /// Reads or writes `size` bytes in as many parts as the system makes of them: move(done) moves some
 /// of the bytes from `done` on. Returns their number, which is less at the end of a file; nothing,
 /// with the reason in errno, where the disk refuses.
-template <class Move>
-std::optional<std::size_t> move_all(std::size_t size, const Move& move) {
+std::optional<std::size_t> move_all(std::size_t size, const auto& move) {
     std::size_t done = 0;
     while (done < size) {
         const ssize_t moved = move(done);

@@ -28,8 +28,7 @@ class InputError : public std::runtime_error {
 class ErrorList {
   public:
     /// Runs `check` and keeps the InputError that it throws. Returns true if it threw none.
-    template <class Check>
-    bool attempt(Check&& check) {
+    bool attempt(auto&& check) {
         try {
             check();
             return true;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstddef>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #if defined(__has_feature)
@@ -62,10 +61,8 @@ struct AcquireAtEnd {
 /// with each result, one at a time and in the order of i. At most `in_flight` results exist at
 /// once. When `stop` becomes true, no more work begins, and the work in flight is finished. An
 /// exception of `work` or `finish` ends the call after the work in flight.
-template <class Work, class Finish>
 void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomic<bool>& stop,
-                      const Work& work, const Finish& finish) {
-    using Result = std::invoke_result_t<const Work&, std::size_t>;
+                      const auto& work, const auto& finish) {
     // Their addresses also identify the handovers between threads.
     std::size_t next = 0;
     char done = 0;
@@ -82,7 +79,7 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
     };
     // Results wait in slots of our own, since TBB does not destroy what it still holds when an
     // exception ends the pipeline. Results leave in order, so those in flight have different slots.
-    std::vector<std::optional<Result>> results(in_flight);
+    std::vector<std::optional<decltype(work(0))>> results(in_flight);
     const auto run = [&](std::size_t i) SONARSIM_CALLED_BY_TBB {
         tsan_acquire(&next);
         const ReleaseAtEnd ran{&done};
@@ -105,8 +102,7 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
 }
 
 /// Calls `body` for 0 to count - 1 on all threads of the arena, in any order.
-template <class Body>
-void in_parallel(std::size_t count, const Body& body) {
+void in_parallel(std::size_t count, const auto& body) {
     char begun = 0;
     char done = 0;
     const AcquireAtEnd all{&done};

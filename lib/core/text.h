@@ -35,8 +35,7 @@ std::size_t utf8_length(std::string_view text);
 std::string printable(std::string_view text);
 
 /// "a, b, c".
-template <class Texts>
-std::string listed(Texts&& texts, std::string_view separator = ", ") {
+std::string listed(auto&& texts, std::string_view separator = ", ") {
     std::string out;
     for (const auto& text : texts)
         out.append(out.empty() ? "" : separator).append(text);

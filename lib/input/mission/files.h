@@ -9,8 +9,7 @@
 namespace sonarsim {
 
 /// Calls `visit` with every path that a mission reads; the paths of a const mission are const.
-template <class SomeMission, class Visit>
-void for_each_file(SomeMission& mission, const Visit& visit) {
+void for_each_file(auto& mission, const auto& visit) {
     const auto poses_of = [&](auto& trajectory) {
         if (auto* poses = std::get_if<FileTrajectoryConfig>(&trajectory)) visit(poses->file);
     };

@@ -51,8 +51,7 @@ template <class T>
 using Choices = std::span<const Choice<T>>;
 
 /// The names of choices, or of other things with a name.
-template <class Named>
-std::vector<std::string> names_of(const Named& all) {
+std::vector<std::string> names_of(const auto& all) {
     std::vector<std::string> names;
     names.reserve(std::size(all));
     for (const auto& one : all)

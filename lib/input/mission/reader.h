@@ -45,8 +45,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
         if constexpr (is_number) numbers_.emplace_back(key, type.yaml(value));
     }
 
-    template <class T>
-    void section(const char* key, T& value, const char* /*meaning*/,
+    void section(const char* key, auto& value, const char* /*meaning*/,
                  Presence presence = Presence::optional) {
         read_key(key, presence, [&](const YamlNode& node) { read(node, key, value); });
     }
@@ -86,11 +85,8 @@ class MissionReader : public KeyVisitor<MissionReader> {
     /// Sets the alternative of `value` by the one key of `keys` that is present.
     template <class... T>
     void one_of(std::variant<T...>& value, const std::array<const char*, sizeof...(T)>& keys) {
-        const std::size_t chosen = index_of_present({keys.begin(), keys.end()});
-        [&]<std::size_t... I>(std::index_sequence<I...>) {
-            ((chosen == I ? void(value.template emplace<I>()) : void()), ...);
-        }
-        (std::index_sequence_for<T...>{});
+        const std::array<std::variant<T...>, sizeof...(T)> forms{T{}...};
+        value = forms[index_of_present({keys.begin(), keys.end()})];
         std::visit(
             [&](auto& chosen) {
                 if constexpr (requires { chosen.place; }) chosen.place = node_.place.location();
@@ -110,8 +106,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
     void finish();
 
   private:
-    template <class T>
-    void read(const YamlNode& node, std::string name, T& value) {
+    void read(const YamlNode& node, std::string name, auto& value) {
         errors_.attempt([&] {
             MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
             if constexpr (requires { value.place; }) value.place = node.place.location();
@@ -121,16 +116,14 @@ class MissionReader : public KeyVisitor<MissionReader> {
     }
 
     /// Reads one key. If it is faulty, its value must not be used.
-    template <class Read>
-    void attempt(const char* key, Read&& read_key) {
+    void attempt(const char* key, const auto& read_key) {
         const std::size_t before = errors_.count();
         errors_.attempt(read_key);
         if (errors_.count() > before) faulty_.emplace_back(key);
     }
 
     /// The same for a key of this section, if it is there.
-    template <class Read>
-    void read_key(const char* key, Presence presence, const Read& read_node) {
+    void read_key(const char* key, Presence presence, const auto& read_node) {
         attempt(key, [&] {
             if (const YamlNode* node = find(key, presence)) read_node(*node);
         });

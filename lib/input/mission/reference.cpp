@@ -1,7 +1,6 @@
 #include "input/mission/reference.h"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <iterator>
 #include <string_view>
@@ -43,16 +42,14 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
     ReferenceBuilder(SonarKeyTable sonars, std::vector<SectionReference>& sections)
         : sonars_(sonars), sections_(sections) {}
 
-    template <class T, class Type>
-    void value(const char* key, const T& value, const Type& type, const char* meaning,
+    void value(const char* key, const auto& value, const auto& type, const char* meaning,
                Presence presence) {
         const TypeNote note = type.note(value);
         const std::string yaml = type.yaml(value);
         add(key, note, meaning, presence == required, yaml.empty() ? note.empty : yaml);
     }
 
-    template <class T>
-    void section(const char* key, T& value, const char* meaning,
+    void section(const char* key, auto& value, const char* meaning,
                  Presence presence = Presence::optional) {
         add(key, {"section"}, meaning, presence == required);
         below(key).visit(value);
@@ -94,10 +91,8 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
     }
 
     /// Each form requires a key of its own.
-    template <class... T>
-    void one_of(const std::variant<T...>& value,
-                const std::array<const char*, sizeof...(T)>& keys) {
-        form_ = keys[value.index()];
+    void one_of(const TrajectoryConfig& value, std::initializer_list<const char*> keys) {
+        form_ = keys.begin()[value.index()];
     }
 
     const SonarKeys& one_of(const char* key, const SonarConfig& value, const char* meaning) {
@@ -110,10 +105,7 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
         add_new({message}, here().checks);
     }
 
-    template <class T>
-    void visit(T& value) {
-        describe(*this, value);
-    }
+    void visit(auto& value) { describe(*this, value); }
 
   private:
     ReferenceBuilder below(const std::string& key) const {

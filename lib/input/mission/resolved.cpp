@@ -1,11 +1,9 @@
 #include "input/mission/resolved.h"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <map>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "core/error.h"
@@ -25,15 +23,13 @@ class MissionWriter : public KeyVisitor<MissionWriter> {
 
     const std::string& yaml() const { return yaml_; }
 
-    template <class T, class Type>
-    void value(const char* key, const T& value, const Type& type, const char* /*meaning*/,
+    void value(const char* key, const auto& value, const auto& type, const char* /*meaning*/,
                Presence) {
         const std::string text = type.yaml(value);
         if (!text.empty()) line(key, text);
     }
 
-    template <class T>
-    void section(std::string_view key, T& value, const char* /*meaning*/,
+    void section(std::string_view key, auto& value, const char* /*meaning*/,
                  Presence = Presence::optional) {
         line(key, "");
         indent_ += 2;
@@ -46,28 +42,25 @@ class MissionWriter : public KeyVisitor<MissionWriter> {
         if (value) section(key, *value, meaning);
     }
 
-    template <class T>
-    void list_of(const char* key, std::vector<T>& values, std::size_t, const char* /*meaning*/) {
+    void list_of(const char* key, auto& values, std::size_t, const char* /*meaning*/) {
         line(key, values.empty() ? "[]" : "");
         indent_ += 4;
-        for (T& value : values) {
+        for (auto& value : values) {
             item_ = true;
             describe(*this, value);
         }
         indent_ -= 4;
     }
 
-    template <class T>
-    void named(const char* key, std::vector<T>& values, const char* meaning) {
+    void named(const char* key, auto& values, const char* meaning) {
         line(key, "");
         indent_ += 2;
-        for (T& value : values)
+        for (auto& value : values)
             section(quoted_text(value.name), value, meaning);
         indent_ -= 2;
     }
 
-    template <class... T>
-    void one_of(const std::variant<T...>&, const std::array<const char*, sizeof...(T)>&) const {}
+    void one_of(const TrajectoryConfig&, std::initializer_list<const char*>) const {}
 
     const SonarKeys& one_of(const char* key, const SonarConfig& value, const char* /*meaning*/) {
         const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
