@@ -40,9 +40,9 @@ void check_characters(std::string_view text, YamlPlace place, Lines lines) {
             place.column = static_cast<int>(i - (before.rfind('\n') + 1)) + 1;
         }
         const std::string format(known_format(text));
-        if (!format.empty()) throw InputError(place.location(), "is " + format + ", not YAML");
-        throw InputError(place.location(), length == 0 ? "is not UTF-8 text; save the file as UTF-8"
-                                                       : "control character in the text");
+        if (!format.empty()) refuse(place, "is {}, not YAML", format);
+        if (length == 0) refuse(place, "is not UTF-8 text; save the file as UTF-8");
+        refuse(place, "control character in the text");
     }
 }
 
@@ -61,7 +61,8 @@ class Builder : public YAML::EventHandler {
     void check_quotes(std::string_view text) const {
         const auto at = static_cast<std::size_t>(last_quote_.pos);
         const bool is_quote = at < text.size() && (text[at] == '"' || text[at] == '\'');
-        if (is_quote && !is_closed(text, at)) fail(last_quote_, "this quote is not closed");
+        if (is_quote && !is_closed(text, at))
+            refuse(place(last_quote_), "this quote is not closed");
     }
 
     YamlPlace place(const YAML::Mark& mark) const {
@@ -70,7 +71,8 @@ class Builder : public YAML::EventHandler {
     }
 
     void OnDocumentStart(const YAML::Mark& mark) override {
-        if (std::exchange(started_, true)) fail(mark, "a second YAML document; only one is read");
+        if (std::exchange(started_, true))
+            refuse(place(mark), "a second YAML document; only one is read");
     }
     void OnDocumentEnd() override {}
 
@@ -79,11 +81,11 @@ class Builder : public YAML::EventHandler {
     }
 
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-        fail(mark, "aliases (*name) are not supported; write the value out");
+        refuse(place(mark), "aliases (*name) are not supported; write the value out");
     }
 
     void OnAnchor(const YAML::Mark& mark, const std::string&) override {
-        fail(mark, "anchors (&name) are not supported; write the value out");
+        refuse(place(mark), "anchors (&name) are not supported; write the value out");
     }
 
     void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
@@ -117,10 +119,6 @@ class Builder : public YAML::EventHandler {
         bool key_comes_next = false;
     };
 
-    [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what) const {
-        throw InputError(place(mark).location(), what);
-    }
-
     YamlNode node_at(const YAML::Mark& mark, YamlNode::Kind kind) const {
         YamlNode node;
         node.kind = kind;
@@ -129,17 +127,17 @@ class Builder : public YAML::EventHandler {
     }
 
     void check_tag(const YAML::Mark& mark, const std::string& tag) const {
-        if (tag != "?" && tag != "!" && !tag.empty()) fail(mark, "tags (!name) are not supported");
+        if (tag != "?" && tag != "!" && !tag.empty())
+            refuse(place(mark), "tags (!name) are not supported");
     }
 
     void open(const YAML::Mark& mark, const std::string& tag, YamlNode::Kind kind) {
         check_tag(mark, tag);
-        if (open_.size() == deepest) {
-            fail(mark, "nested deeper than " + std::to_string(deepest) + " levels");
-        }
+        if (open_.size() == deepest) refuse(place(mark), "nested deeper than {} levels", deepest);
         if (!open_.empty() && open_.back().key_comes_next) {
             // The parser reads an unclosed bracket as the start of a key.
-            fail(mark, "a bracket is not closed, or a list or map stands where a key must");
+            refuse(place(mark),
+                   "a bracket is not closed, or a list or map stands where a key must");
         }
         Open& begun = open_.emplace_back();
         begun.node = node_at(mark, kind);
@@ -154,9 +152,9 @@ class Builder : public YAML::EventHandler {
 
     void add(YamlNode node) {
         if (++count_ > max_nodes) {
-            throw InputError(node.place.location(),
-                             "more than " + std::to_string(max_nodes) +
-                                 " values; long trajectories belong into a file of their own");
+            refuse(node.place,
+                   "more than {} values; long trajectories belong into a file of their own",
+                   max_nodes);
         }
         if (open_.empty()) {
             root_ = std::move(node);
@@ -180,16 +178,11 @@ class Builder : public YAML::EventHandler {
     }
 
     static void add_key(Open& parent, YamlNode key) {
-        if (key.kind != YamlNode::Kind::scalar) {
-            throw InputError(key.place.location(), "a key must be text");
-        }
+        if (key.kind != YamlNode::Kind::scalar) refuse(key.place, "a key must be text");
         if (!parent.keys.insert(key.text).second) {
-            std::string first;
-            const YamlNode* earlier = parent.node.find(key.text);
-            if (earlier->key_place.line > 0) {
-                first = "; first in line " + std::to_string(earlier->key_place.line);
-            }
-            throw InputError(key.place.location(), "duplicate key " + in_quotes(key.text) + first);
+            const int line = parent.node.find(key.text)->key_place.line;
+            const std::string first = line > 0 ? fmt::format("; first in line {}", line) : "";
+            refuse(key.place, "duplicate key {}{}", in_quotes(key.text), first);
         }
         parent.key = std::move(key);
         parent.key_comes_next = false;
@@ -247,8 +240,8 @@ YamlNode read_document(std::string_view text, const std::string& source, Lines l
         while (parser.HandleNextDocument(builder)) {
         }
     } catch (const YAML::Exception& error) {
-        throw InputError(builder.place(error.mark).location(),
-                         "not valid YAML: " + cause_of(error.msg, error.mark.line, text));
+        refuse(builder.place(error.mark), "not valid YAML: {}",
+               cause_of(error.msg, error.mark.line, text));
     }
     builder.check_quotes(text);
     return builder.take();

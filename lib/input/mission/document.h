@@ -1,8 +1,11 @@
 #pragma once
 
+#include <spdlog/fmt/fmt.h>
+
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -17,6 +20,13 @@ struct YamlPlace {
 
     Location location() const { return {*source, line, column}; }
 };
+
+/// Throws InputError at the place, with the parts in place of each {} of the message.
+template <class... Parts>
+[[noreturn]] void refuse(const YamlPlace& place, fmt::format_string<Parts...> message,
+                         Parts&&... parts) {
+    throw InputError(place.location(), fmt::format(message, std::forward<Parts>(parts)...));
+}
 
 /// A node of a YAML document as it was written, without its meaning, and its place.
 struct YamlNode {

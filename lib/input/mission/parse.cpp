@@ -85,26 +85,22 @@ YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
                   const YamlPlace& place) {
     if (node.kind == YamlNode::Kind::list) {
         const std::optional<std::uint64_t> index = parse_unsigned(key);
-        if (!index || *index >= node.items.size()) {
-            throw InputError(place.location(), "no item " + in_quotes(key) + "; the list has " +
-                                                   std::to_string(node.items.size()) +
-                                                   ", counted from 0");
-        }
+        if (!index || *index >= node.items.size())
+            refuse(place, "no item {}; the list has {}, counted from 0", in_quotes(key),
+                   node.items.size());
         return node.items[*index];
     }
-    if (node.kind == YamlNode::Kind::scalar) {
-        throw InputError(place.location(), "there is no key " + in_quotes(key) +
-                                               " below the single value " + in_quotes(node.text));
-    }
+    if (node.kind == YamlNode::Kind::scalar)
+        refuse(place, "there is no key {} below the single value {}", in_quotes(key),
+               in_quotes(node.text));
     if (node.implied && parse_unsigned(key)) {
         std::vector<std::string> lists;
         for (const YamlNode& item : above.items) {
             if (item.kind == YamlNode::Kind::list) lists.push_back(item.key);
         }
-        throw InputError(place.location(), "there is no list " + in_quotes(node.key) +
-                                               " with an item " + in_quotes(key) +
-                                               did_you_mean(node.key, lists) +
-                                               "; write the whole list in the mission first");
+        refuse(place,
+               "there is no list {} with an item {}{}; write the whole list in the mission first",
+               in_quotes(node.key), in_quotes(key), did_you_mean(node.key, lists));
     }
     node.kind = YamlNode::Kind::map;
     if (YamlNode* found = node.find(key)) return *found;

@@ -36,16 +36,15 @@ std::vector<std::filesystem::path> shipped_folders() {
 /// Reads the file that the value of a key `preset` names.
 YamlNode read_preset_file(const YamlNode& name, const std::filesystem::path& base_folder,
                           const std::string& kind) {
-    if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
-        throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
-    }
+    if (name.kind != YamlNode::Kind::scalar || name.text.empty())
+        refuse(name.place, "'preset' must be the path of a YAML file");
     const std::filesystem::path path = preset_file(name.text, base_folder);
     if (path.empty()) {
         const auto file = std::filesystem::absolute(base_folder / name.text).lexically_normal();
-        throw InputError(name.place.location(),
-                         "there is no preset " + in_quotes(file.string()) +
-                             ", and none of this name came with the program" +
-                             shipped_hint(name.text, kind) + ", written as " + kind + "/NAME.yaml");
+        refuse(name.place,
+               "there is no preset {}, and none of this name came with the program{}, written as "
+               "{}/NAME.yaml",
+               in_quotes(file.string()), shipped_hint(name.text, kind), kind);
     }
     return read_document(read_file(path, largest_preset), path.string());
 }
@@ -53,11 +52,9 @@ YamlNode read_preset_file(const YamlNode& name, const std::filesystem::path& bas
 YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
                      const std::string& kind) {
     YamlNode preset = read_preset_file(name, base_folder, kind);
-    if (preset.kind != YamlNode::Kind::map)
-        throw InputError(preset.place.location(), "a preset is a section of keys");
-    if (const YamlNode* const nested = preset.find(preset_key)) {
-        throw InputError(nested->key_place.location(), "a preset cannot name a preset");
-    }
+    if (preset.kind != YamlNode::Kind::map) refuse(preset.place, "a preset is a section of keys");
+    if (const YamlNode* const nested = preset.find(preset_key))
+        refuse(nested->key_place, "a preset cannot name a preset");
     return preset;
 }
 
@@ -70,9 +67,9 @@ void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder
     const YamlNode* const own_kind = section.find("kind");
     const YamlNode* const its_kind = preset.find("kind");
     if (own_kind != nullptr && its_kind != nullptr && own_kind->text != its_kind->text) {
-        throw InputError(own_kind->place.location(),
-                         in_quotes(name->text) + " is the preset of a sonar of the kind " +
-                             in_quotes(its_kind->text) + "; leave 'kind' out, or take another");
+        refuse(own_kind->place,
+               "{} is the preset of a sonar of the kind {}; leave 'kind' out, or take another",
+               in_quotes(name->text), in_quotes(its_kind->text));
     }
     erase_key(section, preset_key);
     section.implied = false;
@@ -98,17 +95,16 @@ std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path
         const YamlNode* const sensor = item.find("sensor");
         if ((sensor != nullptr && sensor->text.empty()) ||
             item.items.size() != (sensor != nullptr ? 2U : 1U)) {
-            throw InputError(item.place.location(),
-                             "a preset of 'vary' takes the key 'sensor', the name of the sensor "
-                             "that it varies, and no other key");
+            refuse(item.place,
+                   "a preset of 'vary' takes the key 'sensor', the name of the sensor that it "
+                   "varies, and no other key");
         }
         const YamlNode preset = read_preset_file(*name, base_folder, randomised_presets);
         if (preset.kind != YamlNode::Kind::list)
-            throw InputError(preset.place.location(), "a preset of 'vary' is a list of rules");
+            refuse(preset.place, "a preset of 'vary' is a list of rules");
         for (YamlNode rule : preset.items) {
             YamlNode* const key = rule.find("key");
-            if (key == nullptr)
-                throw InputError(rule.place.location(), "a rule of 'vary' needs the key 'key'");
+            if (key == nullptr) refuse(rule.place, "a rule of 'vary' needs the key 'key'");
             if (sensor != nullptr) key->text = "sensors." + sensor->text + "." + key->text;
             if (!is_given(key->text)) rules.push_back(std::move(rule));
         }

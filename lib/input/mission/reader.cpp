@@ -55,11 +55,10 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
         // The key may be misspelt.
         for (const YamlNode& item : node_.items) {
             const std::string hint = did_you_mean(item.key, std::vector<std::string>{key});
-            if (hint.empty()) continue;
-            throw InputError(item.key_place.location(),
-                             "unknown key " + in_quotes(item.key) + hint);
+            if (!hint.empty())
+                refuse(item.key_place, "unknown key {}{}", in_quotes(item.key), hint);
         }
-        refuse(node_, "'" + name_ + "' lacks the key '" + key + "'");
+        refuse(node_.place, "'{}' lacks the key '{}'", name_, key);
     }
     return found_node;
 }
@@ -80,51 +79,43 @@ std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys
         if (std::ranges::find(keys, item.key) != keys.end()) present.push_back(item.key);
         if (hint.empty()) hint = did_you_mean(item.key, keys);
     }
-    if (present.empty()) {
-        refuse(node_, "'" + name_ + "' needs one of the keys: " + listed(keys) + hint);
-    }
-    if (present.size() > 1) {
-        throw InputError(node_.find(present[1])->key_place.location(),
-                         "'" + name_ + "' takes one of the keys: " + listed(keys) + "; here are " +
-                             listed(present));
-    }
+    if (present.empty())
+        refuse(node_.place, "'{}' needs one of the keys: {}{}", name_, listed(keys), hint);
+    if (present.size() > 1)
+        refuse(node_.find(present[1])->key_place, "'{}' takes one of the keys: {}; here are {}",
+               name_, listed(keys), listed(present));
     return static_cast<std::size_t>(std::ranges::find(keys, present[0]) - keys.begin());
 }
 
 std::span<const YamlNode> MissionReader::list_items(const char* key, std::size_t fewest) {
     const Presence presence = fewest > 0 ? Presence::required : Presence::optional;
-    const YamlNode* const present = find(key, presence);
-    if (present == nullptr) return {};
-    const YamlNode& node = *present;
-    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list");
-    if (node.items.size() < fewest) {
-        refuse(node, "'" + std::string(key) + "' must have at least " + std::to_string(fewest) +
-                         " items, not " + std::to_string(node.items.size()));
-    }
-    return node.items;
+    const YamlNode* const node = find(key, presence);
+    if (node == nullptr) return {};
+    if (node->kind != YamlNode::Kind::list) refuse_type(*node, key, "a list");
+    if (node->items.size() < fewest)
+        refuse(node->place, "'{}' must have at least {} items, not {}", key, fewest,
+               node->items.size());
+    return node->items;
 }
 
 const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
     const YamlNode& node = *find(key, Presence::required);
     if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
-    if (node.items.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    if (node.items.empty()) refuse(node.place, "'{}' must not be empty", key);
     std::vector<std::string> names;
     for (const YamlNode& item : node.items) {
         if (item.implied) {
             const std::string hint = did_you_mean(item.key, names);
-            refuse(item, "there is no " + in_quotes(item.key) + " in '" + key + "'" +
-                             (hint.empty() ? "; there are: " + listed(names) : hint));
+            refuse(item.place, "there is no {} in '{}'{}", in_quotes(item.key), key,
+                   hint.empty() ? "; there are: " + listed(names) : hint);
         }
-        if (!is_name(item.key)) {
-            throw InputError(
-                item.key_place.location(),
-                "the name " + in_quotes(item.key) + " must be 1 to 64 letters, digits, '_' or '-'");
-        }
-        if (is_taken_by_dataset(item.key)) {
-            throw InputError(item.key_place.location(),
-                             "the name " + in_quotes(item.key) +
-                                 " is that of a file or folder of the dataset; take another");
-        }
+        if (!is_name(item.key))
+            refuse(item.key_place, "the name {} must be 1 to 64 letters, digits, '_' or '-'",
+                   in_quotes(item.key));
+        if (is_taken_by_dataset(item.key))
+            refuse(item.key_place,
+                   "the name {} is that of a file or folder of the dataset; take another",
+                   in_quotes(item.key));
         names.push_back(item.key);
     }
     return node.items;
@@ -152,7 +143,8 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         if (std::ranges::find(keys, key) != keys.end()) values.push_back(key + " is " + value);
     }
     const std::string ending = values.empty() ? "" : " (" + listed(values) + ")";
-    errors_.attempt([&] { refuse(last != nullptr ? *last : node_, message + ending); });
+    const YamlNode& fault = last != nullptr ? *last : node_;
+    errors_.attempt([&] { refuse(fault.place, "{}{}", message, ending); });
     faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 
@@ -161,9 +153,9 @@ void MissionReader::finish() {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
         std::string hint = misplaced(item.key, known_);
         if (hint.empty()) hint = did_you_mean(item.key, known_);
-        errors_.add(InputError(item.key_place.location(),
-                               "unknown key " + in_quotes(item.key) +
-                                   (hint.empty() ? "; known here: " + listed(known_) : hint)));
+        if (hint.empty()) hint = "; known here: " + listed(known_);
+        errors_.attempt(
+            [&] { refuse(item.key_place, "unknown key {}{}", in_quotes(item.key), hint); });
     }
 }
 

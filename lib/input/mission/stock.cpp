@@ -54,8 +54,8 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, E
     const std::vector<std::string> kinds(std::begin(stock_kinds), std::end(stock_kinds));
     const bool is_known = errors.attempt([&] {
         if (std::ranges::find(kinds, kind.text) != kinds.end()) return;
-        refuse(kind, "the stock has no " + in_quotes(kind.text) + did_you_mean(kind.text, kinds) +
-                         "; there are: " + listed(kinds));
+        refuse(kind.place, "the stock has no {}{}; there are: {}", in_quotes(kind.text),
+               did_you_mean(kind.text, kinds), listed(kinds));
     });
     for (int k = 1; k <= stock_examples; ++k) {
         const std::string name = kind.text + "_" + std::to_string(k) + ".glb";
@@ -63,9 +63,10 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, E
             preset_file("../scenes/generated/stock/" + name, base_folder);
         errors.attempt([&] {
             if (!path.empty() || !is_known || std::exchange(missing, true)) return;
-            refuse(kind, "the stock's file " + name +
-                             " has not been made; scripts/make_scenes.py stock makes it, as "
-                             "scripts/render.sh does with a mission");
+            refuse(kind.place,
+                   "the stock's file {} has not been made; scripts/make_scenes.py stock makes it, "
+                   "as scripts/render.sh does with a mission",
+                   name);
         });
         YamlNode& file = files.emplace_back(kind);
         file.text = path.empty() ? name : path.lexically_normal().string();
@@ -78,7 +79,7 @@ YamlNode rule_of_clutter(YamlNode clutter) {
     if (clutter.kind != YamlNode::Kind::map)
         refuse_type(clutter, "clutter", "a section with the key density_per_m2");
     if (clutter.find("density_per_m2") == nullptr)
-        refuse(clutter, "'clutter' needs the key 'density_per_m2'");
+        refuse(clutter.place, "'clutter' needs the key 'density_per_m2'");
     const ClutterConfig scales;
     YamlNode defaults = read_document(
         "{name: clutter, overlap: true, unlabelled: true, class: clutter, roll_deg: [-15, 15], "

@@ -42,11 +42,10 @@ double read_number(const YamlNode& node, const char* key, const Limits& limits) 
 
 std::string read_text(const YamlNode& node, const char* key) {
     if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "text");
-    if (node.text.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    if (node.text.empty()) refuse(node.place, "'{}' must not be empty", key);
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-    if (std::ranges::any_of(node.text, is_control)) {
-        refuse(node, "'" + std::string(key) + "' must not hold control characters");
-    }
+    if (std::ranges::any_of(node.text, is_control))
+        refuse(node.place, "'{}' must not hold control characters", key);
     return node.text;
 }
 
@@ -58,12 +57,8 @@ std::string fault_of(double value, const Limits& limits) {
     return value <= limits.high ? "" : "at most " + number_text(limits.high);
 }
 
-void refuse(const YamlNode& node, const std::string& what) {
-    throw InputError(node.place.location(), what);
-}
-
 void refuse_type(const YamlNode& node, const std::string& key, const std::string& wanted) {
-    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
+    refuse(node.place, "'{}' must be {}, not {}", key, wanted, found(node));
 }
 
 void FlagType::read(const YamlNode& node, const char* key, bool& value) const {
@@ -126,17 +121,15 @@ void NumberType::read(const YamlNode& node, const char* key, std::array<double, 
     }
     ArrayType{limits}.read(node, key, value);
     if (value[0] <= value[1]) return;
-    refuse(node, "'" + std::string(key) + "': the first number must not be above the second, in [" +
-                     number_text(value[0]) + ", " + number_text(value[1]) + "]");
+    refuse(node.place, "'{}': the first number must not be above the second, in [{}, {}]", key,
+           number_text(value[0]), number_text(value[1]));
 }
 
 void ArrayType::read(const YamlNode& node, const char* key, std::span<double> values) const {
     const std::string wanted = "a list of " + std::to_string(values.size()) + " numbers";
     if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
-    if (node.items.size() != values.size()) {
-        refuse(node, "'" + std::string(key) + "' must be " + wanted + ", not of " +
-                         std::to_string(node.items.size()));
-    }
+    if (node.items.size() != values.size())
+        refuse(node.place, "'{}' must be {}, not of {}", key, wanted, node.items.size());
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = read_number(node.items[i], key, limits);
 }
@@ -171,8 +164,8 @@ std::size_t index_of(const YamlNode& node, const char* key, const std::vector<st
     if (node.kind != YamlNode::Kind::scalar) refuse_type(node, key, "one of: " + listed(names));
     const auto name = std::ranges::find(names, node.text);
     if (name == names.end()) {
-        refuse(node, "unknown " + std::string(key) + " " + in_quotes(node.text) +
-                         did_you_mean(node.text, names) + "; known: " + listed(names));
+        refuse(node.place, "unknown {} {}{}; known: {}", key, in_quotes(node.text),
+               did_you_mean(node.text, names), listed(names));
     }
     return static_cast<std::size_t>(name - names.begin());
 }
@@ -182,12 +175,11 @@ std::vector<bool> chosen_of(const YamlNode& node, const char* key,
     const bool all = is_plain(node) && node.text == "true";
     std::vector<bool> chosen(names.size(), all);
     if (all || (is_plain(node) && node.text == "false")) return chosen;
-    if (node.kind != YamlNode::Kind::list) {
+    if (node.kind != YamlNode::Kind::list)
         refuse_type(node, key, "true, false or a list of: " + listed(names));
-    }
     for (const YamlNode& item : node.items) {
         const std::size_t index = index_of(item, key, names);
-        if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
+        if (chosen[index]) refuse(item.place, "{} stands twice in '{}'", in_quotes(item.text), key);
         chosen[index] = true;
     }
     return chosen;

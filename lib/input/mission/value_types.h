@@ -26,7 +26,6 @@
 
 namespace sonarsim {
 
-[[noreturn]] void refuse(const YamlNode& node, const std::string& what);
 /// Throws "'key' must be WANTED, not FOUND".
 [[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
                               const std::string& wanted);
