@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "input/mission/sonar_keys.h"
-#include "input/mission/trajectory_keys.h"
 #include "input/mission/value_types.h"
 
 namespace sonarsim {
@@ -19,7 +16,7 @@ namespace {
 
 /// A number that may be drawn for pings.
 struct VaryingNumber {
-    std::string key;
+    std::string name;  ///< its key
     double* value;
     Limits limits;
 };
@@ -40,20 +37,17 @@ struct NumberList : KeyVisitor<NumberList> {
             list.push_back({prefix + key + "." + std::to_string(k), &values[k], type.limits});
     }
     // Other keys do not vary for pings.
-    template <class T, class Type>
-    void value(const char*, const T&, const Type&, const char*, Presence) const {}
-    template <class T>
-    void section(const char*, T&, const char*) const {}
+    void value(const char*, const auto&, const auto&, const char*, Presence) const {}
+    void section(const char*, auto&, const char*) const {}
 
-    template <class T>
-    void add(const std::string& section, T& values) {
+    void add(const std::string& section, auto& values) {
         prefix = section;
         describe(*this, values);
     }
 
     /// The number with this key; null if there is none.
     const VaryingNumber* find(std::string_view key) const {
-        const auto found = std::ranges::find(list, key, &VaryingNumber::key);
+        const auto found = std::ranges::find(list, key, &VaryingNumber::name);
         return found == list.end() ? nullptr : &*found;
     }
 };
@@ -64,11 +58,10 @@ std::string section_of(std::string_view sensor) {
     return "sensors." + std::string(sensor) + ".";
 }
 
-/// The numbers of a sensor that may be drawn for pings. Their keys begin with `section`.
-NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
-    NumberList numbers;
+/// Adds the numbers of a sensor that may be drawn for pings. Their keys begin with `section`.
+void add_sensor(const std::string& section, SonarConfig& sensor, NumberList& numbers) {
     numbers.add(section + "mount.", sensor.mount);
-    if (sensor.model != ModelKind::paper) return numbers;
+    if (sensor.model != ModelKind::paper) return;
     numbers.add(section + "noise.", sensor.noise);
     // A side-scan sonar has no range noise.
     if (sensor.kind == SonarKind::sidescan) {
@@ -77,13 +70,6 @@ NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
         });
     }
     numbers.add(section + "streaks.", sensor.streaks);
-    return numbers;
-}
-
-NumberList numbers_of(VehicleConfig& vehicle) {
-    NumberList numbers;
-    numbers.add(vehicle_section, vehicle);
-    return numbers;
 }
 
 /// A rule that is drawn for pings, and its index in `vary`.
@@ -121,38 +107,30 @@ std::vector<std::string> extremes_of(const VaryConfig& rule) {
     return rule.choice.items;
 }
 
-/// The limits of the number that a key names; none if it cannot be drawn for pings.
-std::optional<Limits> limits_of(const Mission& mission, const std::string& key) {
-    VehicleConfig vehicle;
-    const NumberList vehicle_numbers = numbers_of(vehicle);
-    if (const VaryingNumber* const found = vehicle_numbers.find(key)) return found->limits;
-    for (SonarConfig sensor : mission.sensors) {
-        const NumberList numbers = numbers_of(sensor, section_of(sensor.name));
-        if (const VaryingNumber* const found = numbers.find(key)) return found->limits;
-    }
-    return std::nullopt;
-}
-
 void check_rule(const Mission& mission, const VaryConfig& rule) {
     constexpr double min_share = 0.05;
     const auto refuse = [&](const std::string& what) { throw InputError(rule.place, what); };
-    const std::optional<Limits> limits = limits_of(mission, rule.key);
-    if (!limits) {
-        VehicleConfig vehicle;
-        SonarConfig sensor;
-        NumberList numbers = numbers_of(sensor, "");
+    VehicleConfig vehicle;
+    SonarConfig any_sensor;
+    std::vector<SonarConfig> sensors = mission.sensors;
+    NumberList numbers;
+    for (SonarConfig& sensor : sensors)
+        add_sensor(section_of(sensor.name), sensor, numbers);
+    numbers.add(vehicle_section, vehicle);
+    const VaryingNumber* const number = numbers.find(rule.key);
+    if (number == nullptr) {
+        numbers.list.clear();
+        add_sensor("", any_sensor, numbers);
         numbers.add(vehicle_section, vehicle);
-        std::vector<std::string> keys;
-        std::ranges::transform(numbers.list, std::back_inserter(keys), &VaryingNumber::key);
         refuse("'" + printable(rule.key) +
                "' cannot be drawn for every ping; write per: variant, or one of the keys that can, "
                "the first of them below sensors.NAME: " +
-               listed(keys));
+               listed(names_of(numbers.list)));
     }
     for (const std::string& text : extremes_of(rule)) {
         const std::optional<double> value = parse_number(text);
         if (!value) refuse("'choice' for every ping takes numbers for '" + rule.key + "'");
-        const std::string fault = fault_of(*value, *limits);
+        const std::string fault = fault_of(*value, number->limits);
         if (!fault.empty()) refuse("'" + rule.key + "' must be " + fault + ", not " + text);
     }
     if (share_within(rule) < min_share) {
@@ -161,13 +139,8 @@ void check_rule(const Mission& mission, const VaryConfig& rule) {
     }
 }
 
-constexpr std::uint32_t max_tries = 1000;
-
-double part_of(const std::array<double, 2>& range, double share) {
-    return range[0] + share * (range[1] - range[0]);
-}
-
 double draw_normal(const VaryConfig& rule, PhiloxKey key) {
+    constexpr std::uint32_t max_tries = 1000;
     const auto [mean, sigma] = *rule.normal;
     for (std::uint32_t attempt = 0; attempt < max_tries; ++attempt) {
         const double value = mean + sigma * two_normals(philox({attempt, 0, 0, 0}, key)).first;
@@ -206,13 +179,16 @@ bool vehicle_varies_by_ping(const Mission& mission) {
 }
 
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
-    const std::string section = section_of(sensor.name);
-    draw_section(mission, section, pose, numbers_of(sensor, section));
+    NumberList numbers;
+    add_sensor(section_of(sensor.name), sensor, numbers);
+    draw_section(mission, section_of(sensor.name), pose, numbers);
 }
 
 VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose) {
     VehicleConfig vehicle = mission.vehicle;
-    draw_section(mission, vehicle_section, pose, numbers_of(vehicle));
+    NumberList numbers;
+    numbers.add(vehicle_section, vehicle);
+    draw_section(mission, vehicle_section, pose, numbers);
     return vehicle;
 }
 
@@ -239,7 +215,10 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
     const PhiloxBlock words = philox({0, 0, 0, 0}, key);
     const double share = unit_double(words.x0, words.x1);
     if (rule.normal) return number_text(draw_normal(rule, key));
-    if (rule.uniform) return number_text(part_of(*rule.uniform, share));
+    if (rule.uniform) {
+        const auto [low, high] = *rule.uniform;
+        return number_text(low + share * (high - low));
+    }
     if (rule.log_uniform || rule.scale) {
         const auto [low, high] = rule.scale ? *rule.scale : *rule.log_uniform;
         return number_text(std::min(high, low * exponential(share * logarithm(high / low))));

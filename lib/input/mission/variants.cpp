@@ -29,10 +29,6 @@ void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     if (list->items.empty()) erase_key(root, "vary");
 }
 
-bool has_scale(const VaryConfig& rule) {
-    return rule.scale.has_value();
-}
-
 /// The value of a rule with `scale`; `own` has the values without it.
 std::string scaled(const VaryConfig& rule, const std::string& factor, const YamlNode& own) {
     if (const std::optional<double> value = number_at(own, rule.key))
@@ -46,10 +42,6 @@ std::string scaled(const VaryConfig& rule, const std::string& factor, const Yaml
 bool may_change(const VaryConfig& rule, const VaryConfig& scaled) {
     return scaled.key.starts_with(rule.key) || rule.key.ends_with("preset") ||
            rule.key.ends_with("kind") || rule.key.ends_with("model");
-}
-
-bool is_of_variants(const VaryConfig& rule) {
-    return rule.per != VaryPer::ping;
 }
 
 /// The values of a rule that show all objects that it may bring.
@@ -72,13 +64,15 @@ Variants::Variants(const Mission& mission, const MissionSource& source, SonarKey
     erase_key(whole_, "variants");
     keep_rules_of_pings(whole_, mission.vary);
     const std::vector<VaryConfig>& rules = mission_.vary;
-    const bool is_changed = std::ranges::any_of(rules, [&](const VaryConfig& scaled) {
-        return has_scale(scaled) && std::ranges::any_of(rules, [&](const VaryConfig& rule) {
-                   return is_of_variants(rule) && !has_scale(rule) && may_change(rule, scaled);
-               });
+    for (std::size_t k = 0; k < rules.size(); ++k)
+        if (rules[k].per != VaryPer::ping) order_.push_back(k);
+    const auto first_scaled = std::stable_partition(order_.begin(), order_.end(),
+                                                    [&](std::size_t k) { return !rules[k].scale; });
+    const bool is_changed = std::any_of(first_scaled, order_.end(), [&](std::size_t scaled) {
+        return std::any_of(order_.begin(), first_scaled,
+                           [&](std::size_t k) { return may_change(rules[k], rules[scaled]); });
     });
-    if (std::ranges::any_of(rules, has_scale) && !is_changed)
-        own_ = read_document(resolved_yaml(parsed(whole_), sonars_), "");
+    if (first_scaled != order_.end() && !is_changed) own_ = resolved(whole_);
 }
 
 std::uint64_t Variants::seed(int index) const {
@@ -105,55 +99,46 @@ std::vector<Mission> Variants::extremes() const {
 
 /// The values by the rules of `vary`; "" for rules that are drawn for every ping.
 std::vector<std::string> Variants::draw_values(int index) const {
-    std::vector<std::string> values;
-    for (std::size_t k = 0; k < mission_.vary.size(); ++k) {
+    std::vector<std::string> values(mission_.vary.size());
+    for (const std::size_t k : order_) {
         const VaryConfig& rule = mission_.vary[k];
         const auto of =
             rule.per == VaryPer::dataset ? all_variants : static_cast<std::uint32_t>(index);
-        values.push_back(is_of_variants(rule)
-                             ? draw_value(rule, mission_.seed, static_cast<std::uint32_t>(k), of)
-                             : "");
+        values[k] = draw_value(rule, mission_.seed, static_cast<std::uint32_t>(k), of);
     }
     return values;
 }
 
 DrawnValues Variants::drawn_of(const std::vector<std::string>& values) const {
     DrawnValues drawn;
-    for (const bool scales : {false, true}) {
-        std::optional<YamlNode> changed;
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            const VaryConfig& rule = mission_.vary[k];
-            if (!is_of_variants(rule) || has_scale(rule) != scales) continue;
-            if (scales && !own_ && !changed) changed = own_values(values);
-            drawn.emplace_back(
-                rule.key, scales ? scaled(rule, values[k], own_ ? *own_ : *changed) : values[k]);
+    std::optional<YamlNode> changed;  // the values that rules with `scale` multiply, without own_
+    for (const std::size_t k : order_) {
+        const VaryConfig& rule = mission_.vary[k];
+        if (!rule.scale) {
+            drawn.emplace_back(rule.key, values[k]);
+            continue;
         }
+        if (!own_ && !changed) {
+            YamlNode root = whole_;
+            set_drawn(root, drawn);
+            changed = resolved(root);
+        }
+        drawn.emplace_back(rule.key, scaled(rule, values[k], own_ ? *own_ : *changed));
     }
     return drawn;
 }
 
-/// The resolved values of the mission with the values of the rules without `scale`.
-YamlNode Variants::own_values(const std::vector<std::string>& values) const {
-    YamlNode root = whole_;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        const VaryConfig& rule = mission_.vary[k];
-        if (is_of_variants(rule) && !has_scale(rule))
-            set_text(root, rule.key, values[k], rule.place);
-    }
-    return read_document(resolved_yaml(parsed(root), sonars_), "");
+/// Sets the first values of drawn_of().
+void Variants::set_drawn(YamlNode& root, const DrawnValues& drawn) const {
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        set_text(root, drawn[i].first, drawn[i].second, mission_.vary[order_[i]].place);
 }
 
 Mission Variants::make(int index, const std::vector<std::string>& values) const {
     YamlNode root = whole_;
     set_text(root, "seed", std::to_string(seed(index)), {source_.file.string()});
     Variant variant{index, drawn_of(values), objects_};
-    auto drawn = variant.drawn.begin();
-    for (const bool scales : {false, true}) {
-        for (const VaryConfig& rule : mission_.vary) {
-            if (is_of_variants(rule) && has_scale(rule) == scales)
-                set_text(root, rule.key, (drawn++)->second, rule.place);
-        }
-    }
+    set_drawn(root, variant.drawn);
     Mission made = parsed(root);
     made.output.folder = mission_.output.folder / variant_folder(index);
     made.variant = std::move(variant);
@@ -162,6 +147,11 @@ Mission Variants::make(int index, const std::vector<std::string>& values) const 
 
 Mission Variants::parsed(const YamlNode& root) const {
     return parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
+}
+
+/// The document of a mission with all values.
+YamlNode Variants::resolved(const YamlNode& root) const {
+    return read_document(resolved_yaml(parsed(root), sonars_), "");
 }
 
 }  // namespace sonarsim

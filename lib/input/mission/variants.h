@@ -40,13 +40,16 @@ class Variants {
     std::vector<std::string> draw_values(int index) const;
     Mission make(int index, const std::vector<std::string>& values) const;
     Mission parsed(const YamlNode& root) const;
-    YamlNode own_values(const std::vector<std::string>& values) const;
+    YamlNode resolved(const YamlNode& root) const;
     DrawnValues drawn_of(const std::vector<std::string>& values) const;
+    void set_drawn(YamlNode& root, const DrawnValues& drawn) const;
 
     Mission mission_;
     MissionSource source_;
     SonarKeyTable sonars_;
     YamlNode whole_;
+    /// The rules of `vary` that are not drawn for pings, those with `scale` last.
+    std::vector<std::size_t> order_;
     /// The values that rules with `scale` multiply; empty if another rule may change them.
     std::optional<YamlNode> own_;
     PossibleObjects objects_;
