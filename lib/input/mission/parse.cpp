@@ -64,6 +64,7 @@ void check_rules(const Mission& mission) {
 
 constexpr std::size_t longest_path = 16;
 constexpr const char* usage_of_set = "write --set key=value or --set section.key=value";
+constexpr const char* usage_of_key = "'key' is written as key or section.key";
 
 std::vector<std::string> split_path(std::string_view path, const Location& where,
                                     const char* usage) {
@@ -71,25 +72,27 @@ std::vector<std::string> split_path(std::string_view path, const Location& where
     for (std::size_t start = 0; start <= path.size();) {
         const std::size_t end = std::min(path.find('.', start), path.size());
         keys.emplace_back(path.substr(start, end - start));
-        if (keys.back().empty() || keys.size() > longest_path) {
-            throw InputError(where, usage);
-        }
+        if (keys.back().empty() || keys.size() > longest_path) throw InputError(where, usage);
         start = end + 1;
     }
     return keys;
+}
+
+/// The item of a list or map that a key of a path names; null if there is none.
+auto* item_of(auto& node, const std::string& key) {
+    if (node.kind != YamlNode::Kind::list) return node.find(key);
+    const std::optional<std::uint64_t> index = parse_unsigned(key);
+    return index && *index < node.items.size() ? &node.items[*index] : nullptr;
 }
 
 /// The item of `node` that `key` names. A missing item of a map is created. `above` holds `node`,
 /// for messages.
 YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
                   const YamlPlace& place) {
-    if (node.kind == YamlNode::Kind::list) {
-        const std::optional<std::uint64_t> index = parse_unsigned(key);
-        if (!index || *index >= node.items.size())
-            refuse(place, "no item {}; the list has {}, counted from 0", in_quotes(key),
-                   node.items.size());
-        return node.items[*index];
-    }
+    if (YamlNode* const found = item_of(node, key)) return *found;
+    if (node.kind == YamlNode::Kind::list)
+        refuse(place, "no item {}; the list has {}, counted from 0", in_quotes(key),
+               node.items.size());
     if (node.kind == YamlNode::Kind::scalar)
         refuse(place, "there is no key {} below the single value {}", in_quotes(key),
                in_quotes(node.text));
@@ -103,7 +106,6 @@ YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
                in_quotes(node.key), in_quotes(key), did_you_mean(node.key, lists));
     }
     node.kind = YamlNode::Kind::map;
-    if (YamlNode* found = node.find(key)) return *found;
     YamlNode& made = node.items.emplace_back();
     made.implied = true;
     made.place = place;
@@ -187,9 +189,7 @@ void apply_override(YamlNode& root, const std::string& setting) {
     const std::string source = "--set " + shown(setting, 120);
     const Location where{source};
     const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos) {
-        throw InputError(where, usage_of_set);
-    }
+    if (equals == std::string::npos) throw InputError(where, usage_of_set);
     assign(root, split_path(std::string_view(setting).substr(0, equals), where, usage_of_set),
            read_document(std::string_view(setting).substr(equals + 1), source, Lines::none));
 }
@@ -198,19 +198,13 @@ void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where) {
     YamlNode node = read_document(value, where.file, Lines::none);
     set_place(node, {std::make_shared<const std::string>(where.file), where.line, where.column});
-    assign(root, split_path(path, where, "'key' is written as key or section.key"),
-           std::move(node));
+    assign(root, split_path(path, where, usage_of_key), std::move(node));
 }
 
 std::optional<double> number_at(const YamlNode& root, std::string_view path) {
     const YamlNode* node = &root;
-    for (const std::string& key : split_path(path, {}, "'key' is written as key or section.key")) {
-        if (node->kind == YamlNode::Kind::list) {
-            const std::optional<std::uint64_t> index = parse_unsigned(key);
-            node = index && *index < node->items.size() ? &node->items[*index] : nullptr;
-        } else {
-            node = node->find(key);
-        }
+    for (const std::string& key : split_path(path, {}, usage_of_key)) {
+        node = item_of(*node, key);
         if (node == nullptr) return std::nullopt;
     }
     return node->kind == YamlNode::Kind::scalar ? parse_number(node->text) : std::nullopt;
