@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/descriptor.h"
@@ -39,33 +40,6 @@ std::string hint_of_path(const std::filesystem::path& path) {
         names.push_back(entry->path().filename().string());
     std::ranges::sort(names);
     return did_you_mean(path.filename().string(), names);
-}
-
-enum class Durable { no, yes };
-
-/// Writes a new file. Fails if the name exists already, even as a link.
-void write_bytes(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
-    Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
-    if (file.get() < 0) throw_errno("cannot write", path);
-    const auto put = move_all(bytes.size(), [&](std::size_t done) {
-        return ::write(file.get(), bytes.data() + done, bytes.size() - done);
-    });
-    if (put != bytes.size() || (durable == Durable::yes && ::fsync(file.get()) != 0) ||
-        !file.close())
-        throw_errno("cannot write", path);
-}
-
-/// Makes the names in a folder durable.
-void sync_folder(const std::filesystem::path& folder) {
-    const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
-    if (names.get() < 0 || ::fsync(names.get()) != 0) throw_errno("cannot write", folder);
-}
-
-void write_and_rename(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
-    AtomicFile file(path);
-    write_bytes(file.part(), bytes, durable);
-    file.commit();
-    if (durable == Durable::yes) sync_folder(path.parent_path());
 }
 
 constexpr std::size_t random_bytes = 8;
@@ -133,11 +107,19 @@ void AtomicFile::commit() {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-    write_and_rename(path, bytes, Durable::no);
+    StreamedFile file(path);
+    file.append(bytes);
+    file.finish();
 }
 
 void write_file_durably(const std::filesystem::path& path, std::string_view bytes) {
-    write_and_rename(path, bytes, Durable::yes);
+    StreamedFile file(path);
+    file.append(bytes);
+    file.finish(Durable::yes);
+    // The name in its folder is durable, too.
+    const std::filesystem::path folder = path.parent_path();
+    const Descriptor names(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+    if (names.get() < 0 || ::fsync(names.get()) != 0) throw_errno("cannot write", folder);
 }
 
 void sync_file_system(const std::filesystem::path& folder) {
@@ -146,27 +128,71 @@ void sync_file_system(const std::filesystem::path& folder) {
 }
 
 StreamedFile::StreamedFile(const std::filesystem::path& path)
-    : atomic_file_(path), file_(std::fopen(atomic_file_.part().c_str(), "wbe")) {
-    if (!file_) throw_errno("cannot write", atomic_file_.part());
+    : atomic_file_(path), file_(atomic_file_.part(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW) {
+    if (file_.get() < 0) throw_errno("cannot write", atomic_file_.part());
 }
 
 void StreamedFile::append(std::string_view bytes) {
     constexpr std::size_t max_pending = std::size_t{1} << 16;
-    pending_ += bytes;
-    if (pending_.size() < max_pending) return;
-    put(pending_);
-    pending_.clear();
+    if (pending_.size() + bytes.size() > max_pending) put(std::exchange(pending_, {}));
+    if (bytes.size() > max_pending)
+        put(bytes);
+    else
+        pending_ += bytes;
 }
 
 void StreamedFile::put(std::string_view bytes) {
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-        throw_errno("cannot write", atomic_file_.part());
+    const auto done = move_all(bytes.size(), [&](std::size_t at) {
+        return ::write(file_.get(), bytes.data() + at, bytes.size() - at);
+    });
+    if (done != bytes.size()) throw_errno("cannot write", atomic_file_.part());
 }
 
-void StreamedFile::finish() {
+void StreamedFile::finish(Durable durable) {
     put(pending_);
-    if (std::fclose(file_.release()) != 0) throw_errno("cannot write", atomic_file_.part());
+    if ((durable == Durable::yes && ::fsync(file_.get()) != 0) || !file_.close())
+        throw_errno("cannot write", atomic_file_.part());
     atomic_file_.commit();
+}
+
+void require_no_link(const std::filesystem::path& path, const std::string& what) {
+    if (!std::filesystem::is_symlink(path)) return;
+    throw InputError({path.string()}, "is a symbolic link, and " + what +
+                                          " is written into folders of its own; remove the link "
+                                          "or choose another output folder");
+}
+
+std::string read_bytes(const std::filesystem::path& path, std::size_t offset, std::size_t size) {
+    const Location where{path.string()};
+    const auto refuse = [&] {
+        throw InputError(where, errno == ELOOP
+                                    ? "is a symbolic link; put the file itself in its place"
+                                    : "cannot be read: " + reason());
+    };
+    const Descriptor file(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW);
+    struct stat status {};
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0) refuse();
+    if (!S_ISREG(status.st_mode)) throw InputError(where, "is not a regular file");
+    const auto end = static_cast<std::size_t>(status.st_size);
+    std::string bytes(std::min(size, end - std::min(offset, end)), '\0');
+    const auto got = move_all(bytes.size(), [&](std::size_t done) {
+        return ::pread(file.get(), bytes.data() + done, bytes.size() - done,
+                       static_cast<off_t>(offset + done));
+    });
+    if (!got) refuse();
+    bytes.resize(*got);
+    return bytes;
+}
+
+void copy_regular_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+    constexpr std::size_t piece = std::size_t{1} << 20;
+    std::string bytes = read_bytes(from, 0, piece);
+    StreamedFile target(to);
+    for (std::size_t at = 0; !bytes.empty(); bytes = read_bytes(from, at, piece)) {
+        target.append(bytes);
+        at += bytes.size();
+    }
+    target.finish();
 }
 
 ScratchFolder::ScratchFolder() {

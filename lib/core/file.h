@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
+
+#include "core/descriptor.h"
 
 namespace sonarsim {
 
@@ -56,24 +56,38 @@ class AtomicFile {
     bool committed_ = false;
 };
 
+/// The bytes of a durable file survive a power cut.
+enum class Durable { no, yes };
+
 /// A file of any length that is written in pieces. std::system_error when the disk refuses.
 class StreamedFile {
   public:
     explicit StreamedFile(const std::filesystem::path& path);
     void append(std::string_view bytes);
-    void finish();
+    void finish(Durable durable = Durable::no);
 
   private:
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
     void put(std::string_view bytes);
 
     AtomicFile atomic_file_;
-    std::unique_ptr<std::FILE, Close> file_;
+    Descriptor file_;
     std::string pending_;  ///< buffer, since lines are appended by the thousand
 };
+
+// For folders that anybody may have filled: what a link in them names may be private, or not
+// theirs.
+
+/// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
+void require_no_link(const std::filesystem::path& path, const std::string& what);
+
+/// Up to `size` bytes of a file from `offset` on, fewer at its end. InputError when it is missing,
+/// is a link or not a regular file, or cannot be read.
+std::string read_bytes(const std::filesystem::path& path, std::size_t offset, std::size_t size);
+
+/// Copies a file: a reader of `to` sees the old file or the whole new one, and a link there is
+/// replaced. InputError as read_bytes() for `from`; std::system_error, which names `to`, when the
+/// disk refuses.
+void copy_regular_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// An empty folder for temporary files, which goes with this object. std::system_error when the
 /// disk refuses.

@@ -9,7 +9,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/no_links.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "input/trajectory/files.h"

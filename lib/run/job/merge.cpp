@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/no_links.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/metadata.h"
 #include "run/job/folder.h"

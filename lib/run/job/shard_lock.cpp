@@ -16,7 +16,6 @@
 #include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/no_links.h"
 #include "output/dataset/layout.h"
 
 namespace sonarsim {

@@ -7,7 +7,6 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/no_links.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "output/dataset/dataset_file.h"
