@@ -5,13 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 #include <vector>
 
-#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/text.h"
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/descriptor.h"
 #include "core/file.h"
 #include "core/text.h"
 

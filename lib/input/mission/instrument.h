@@ -6,8 +6,7 @@
 
 #include "input/mission/limits.h"
 
-// The instrument that `model: calibrated` simulates: its keys, with their defaults and their
-// descriptions as in mission.h.
+// The keys of the instrument that `model: calibrated` simulates, as in mission.h.
 
 namespace sonarsim {
 

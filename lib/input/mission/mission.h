@@ -188,9 +188,8 @@ inline constexpr Choice<MaskKind> mask_kinds[]{{"outline", MaskKind::outline},
 void describe(auto& v, LabelConfig& c) {
     v.text("background", c.background,
            "background classes, which are not objects and have no contrast, shadow or visible "
-           "share. `auto` stands "
-           "for the classes of the nodes that scene.bottom names and for the class of the largest "
-           "surface; `none` for no class");
+           "share. `auto` stands for the classes of the nodes that scene.bottom names and for the "
+           "class of the largest surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
     v.choice("mask", c.mask, mask_kinds,
@@ -220,11 +219,10 @@ void describe(auto& v, Mission& c) {
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     const bool is_visible =
         !c.scene.particles.empty() || (c.scene.water_surface && c.scene.water_surface->scatters);
-    v.require(!is_visible || std::ranges::all_of(c.sensors,
-                                                 [](const SonarConfig& s) {
-                                                     return s.model == ModelKind::calibrated;
-                                                 }),
-              {"scene", "sensors"},
+    const auto is_calibrated = [](const SonarConfig& s) {
+        return s.model == ModelKind::calibrated;
+    };
+    v.require(!is_visible || std::ranges::all_of(c.sensors, is_calibrated), {"scene", "sensors"},
               "scene.particles and scene.water_surface.scatters need model: calibrated on all "
               "sensors");
     v.require(

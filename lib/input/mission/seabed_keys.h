@@ -10,8 +10,7 @@
 #include "core/error.h"
 #include "input/mission/limits.h"
 
-// The keys of scene.seabed, and of the maps that apply to the ground, with their defaults and their
-// descriptions as in mission.h.
+// The keys of scene.seabed, and of the maps that apply to the ground, as in mission.h.
 
 namespace sonarsim {
 
@@ -26,14 +25,12 @@ struct BedRoughnessConfig {
     double corner_m = 2.0;  ///< wavelength above which the spectrum is flat
 };
 
-/// A train of ripples.
 struct BedRippleConfig {
     double height_m = 0.0;  ///< from trough to crest
     double length_m = 0.0;  ///< from crest to crest
     double direction_deg = 0.0;
 };
 
-/// Rocks that lie on the bed, in a Poisson process.
 struct BedRockConfig {
     double density_per_m2 = 0.0;
     std::array<double, 2> diameter_m{};
@@ -42,7 +39,6 @@ struct BedRockConfig {
     std::string material = {};
 };
 
-/// A material that covers a share of the bed.
 struct BedSedimentConfig {
     std::string material;
     double share = 1.0;
@@ -101,8 +97,7 @@ void describe(auto& v, BedRockConfig& c) {
              "exponent q of the power law: rocks above the diameter D are as frequent as D^-q");
     v.number("buried", c.buried, between(0, 0.95), "share of a rock's height below the bed");
     v.text("material", c.material,
-           "material of the rocks; default: that of the bed, or of its first "
-           "sediment");
+           "material of the rocks; default: that of the bed, or of its first sediment");
     v.require(c.diameter_m[0] <= c.diameter_m[1], {"diameter_m"},
               "'diameter_m' is the least and the largest; the first must not be above the second");
 }
@@ -143,7 +138,6 @@ struct AppliedMapConfig {
     Location place = {};
 };
 
-/// An image whose pixels are materials.
 struct SedimentMapConfig : AppliedMapConfig {
     Renaming materials;  ///< from a pixel's value or its colour to a material
 };

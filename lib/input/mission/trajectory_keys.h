@@ -149,11 +149,9 @@ void describe(auto& v, TrajectoryConfig& c) {
 }
 
 void describe(auto& v, MotionConfig& c) {
-    constexpr Limits deviation_m{0.0, 100.0};
-    constexpr Limits deviation_deg{0.0, 45.0};
-    v.array("position_m", c.position_m, deviation_m,
+    v.array("position_m", c.position_m, between(0, 100),
             "standard deviations of surge (ahead), sway (to port) and heave (up)");
-    v.array("turn_deg", c.turn_deg, deviation_deg, "standard deviations of roll, pitch and yaw");
+    v.array("turn_deg", c.turn_deg, between(0, 45), "standard deviations of roll, pitch and yaw");
     v.number("period_s", c.period_s, between(0.1, 1000),
              "period of the strongest waves; the spectrum is that of Pierson and Moskowitz");
 }

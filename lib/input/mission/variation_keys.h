@@ -79,8 +79,7 @@ void describe(auto& v, VaryConfig& c) {
             "the least and the largest number; each decade is equally likely");
     v.array("scale", c.scale, any,
             "the least and the largest factor of the value that the mission, its preset or the "
-            "default has, drawn "
-            "as by log_uniform; 0 stays 0");
+            "default has, drawn as by log_uniform; 0 stays 0");
     v.array("whole", c.whole, any, "the least and the largest whole number");
     v.array("normal", c.normal, any, "mean and standard deviation");
     v.array("within", c.within, any, "limits of a normal draw; a draw outside them is repeated");

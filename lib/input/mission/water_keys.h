@@ -11,8 +11,7 @@
 #include "input/mission/instrument.h"
 #include "input/mission/limits.h"
 
-// The keys of the water and of scene.particles, with their defaults and their descriptions as in
-// mission.h.
+// The keys of the water and of scene.particles, as in mission.h.
 
 namespace sonarsim {
 
@@ -98,8 +97,7 @@ void describe(auto& v, WaterConfig& c) {
              "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
              "calibrated model; `auto` takes that of `content`");
     v.list_of("layers", c.layers, 0,
-              "layers of the water that scatter more; they need "
-              "scene.water_surface");
+              "layers of the water that scatter more; they need scene.water_surface");
     v.section("profile", c.profile,
               "speed of sound by depth below scene.water_surface: sound bends, and a "
               "range is half of sound_speed_m_s times the time");

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/descriptor.h"
+#include "core/file.h"
 #include "output/format/npy.h"
 
 namespace sonarsim {

@@ -5,7 +5,6 @@
 #include <sstream>
 #include <utility>
 
-#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"

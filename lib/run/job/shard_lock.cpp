@@ -13,7 +13,6 @@
 #include <thread>
 #include <utility>
 
-#include "core/descriptor.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "output/dataset/layout.h"
