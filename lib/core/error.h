@@ -52,9 +52,16 @@ class ErrorList {
     std::size_t count_ = 0;
 };
 
-/// Adds to the error of a file the location at which another file names this file.
-inline InputError named_at(const InputError& fault, const Location& where) {
-    return InputError(std::string(fault.what()) + "; " + where.text() + " names it");
+/// Runs `read`, which reads a file. Its error gets the place at which another file names this file,
+/// if that is known.
+template <class Read>
+auto read_named_at(const Location& place, const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        if (place.file.empty()) throw;
+        throw InputError(std::string(error.what()) + "; " + place.text() + " names it");
+    }
 }
 
 }  // namespace sonarsim

@@ -120,15 +120,6 @@ void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
     }
 }
 
-MaterialTable materials_of(const SceneConfig& scene) {
-    try {
-        return read_materials(scene.materials);
-    } catch (const InputError& error) {
-        if (scene.place.file.empty()) throw;
-        throw named_at(error, scene.place);
-    }
-}
-
 /// Makes a sonar. Throws InputError if the mission's engine does not support it.
 Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
                     const EngineSettings& settings) {
@@ -181,7 +172,8 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
     MaterialTable materials;
     errors.attempt([&] {
-        materials = materials_of(mission.scene);
+        materials = read_named_at(mission.scene.place,
+                                  [&] { return read_materials(mission.scene.materials); });
         if (!mission.scene.material_default.empty()) {
             require_material(materials, mission.scene.material_default, mission.scene.place);
         }

@@ -23,13 +23,10 @@ namespace sonarsim {
 namespace {
 
 Trajectory form_of(const FileTrajectoryConfig& config) {
-    try {
+    return read_named_at(config.place, [&] {
         Trajectory poses = read_trajectory(config.file);
         return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
-    } catch (const InputError& error) {
-        if (config.place.file.empty()) throw;
-        throw named_at(error, config.place);
-    }
+    });
 }
 
 Trajectory form_of(const WaypointTrajectoryConfig& config) {

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "core/units.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/rest.h"
@@ -141,12 +140,7 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
     if (lines && lines->altitude_m > 0.0) {
         throw InputError(object.place, title_of(object) + " has no altitude_m: give z_m");
     }
-    Trajectory motion;
-    try {
-        motion = poses_of(*object.trajectory);
-    } catch (const InputError& error) {
-        throw named_at(error, object.place);
-    }
+    Trajectory motion = read_named_at(object.place, [&] { return poses_of(*object.trajectory); });
     const double start_s = vehicle.front().t_s;
     const double end_s = vehicle.back().t_s;
     if (!std::holds_alternative<FileTrajectoryConfig>(*object.trajectory)) {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <memory>
+#include <filesystem>
+#include <list>
 
 #include "input/scene/placed_file.h"
 
@@ -9,6 +10,11 @@ class Model;
 }
 
 namespace sonarsim {
+
+/// Reads a .gltf or .glb file into tinygltf's structs, without its textures, animations, skins and
+/// cameras. Sizes, indices and offsets are not checked, and a value of a wrong type is a default.
+/// Reads at most 2 GiB, external buffers included. InputError for a faulty file.
+tinygltf::Model read_gltf(const std::filesystem::path& path);
 
 /// Reads files of meshes, each only once, and keeps them. Not thread-safe.
 class SceneFiles {
@@ -24,8 +30,8 @@ class SceneFiles {
     const tinygltf::Model& model(const PlacedFile& placed);
 
   private:
-    struct Models;
-    std::unique_ptr<Models> models_;
+    struct Entry;
+    std::list<Entry> entries_;  ///< a list, so that references stay valid
 };
 
 }  // namespace sonarsim

@@ -201,17 +201,6 @@ void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& s
                              "; write the point of the map that is x = 0, y = 0 as origin_m");
 }
 
-/// Reads one map; its errors name the mission.
-template <class Read>
-auto read_map(const AppliedMapConfig& map, const Read& read) {
-    try {
-        return read();
-    } catch (const InputError& error) {
-        if (map.place.file.empty()) throw;
-        throw named_at(error, map.place);
-    }
-}
-
 }  // namespace
 
 void apply_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
@@ -223,12 +212,13 @@ void apply_ground_maps(const SceneConfig& config, const MaterialTable& table, co
         const SedimentMapConfig& map = *config.sediment_map;
         const auto scene_materials = add_materials(map.materials, table, map.place, scene);
         resolve_materials(scene, table, water);
-        materials = read_map(map, [&] { return read_material_map(map, scene, scene_materials); });
+        materials = read_named_at(map.place,
+                                  [&] { return read_material_map(map, scene, scene_materials); });
         warn_of_place(materials->frame, sediment_section, scene);
     }
     if (config.backscatter_map) {
         const AppliedMapConfig& map = *config.backscatter_map;
-        strengths = read_map(map, [&] { return read_strength_map(map, scene); });
+        strengths = read_named_at(map.place, [&] { return read_strength_map(map, scene); });
         warn_of_place(strengths->frame, backscatter_section, scene);
         if (!strengths->factor.empty() &&
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {

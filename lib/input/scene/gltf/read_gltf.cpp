@@ -1,5 +1,3 @@
-#include "input/scene/gltf/file.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -15,6 +13,7 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "input/scene/gltf/nodes.h"
+#include "input/scene/gltf/scene_files.h"
 
 namespace sonarsim {
 
