@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <variant>
 
+#include "core/error.h"
+#include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"
-#include "simulate/sonar/sonar.h"
+#include "simulate/assembly/sound_profiles.h"
 
 namespace sonarsim {
 
@@ -23,6 +26,81 @@ void announce_large(const BedGrid& grid, const std::function<void(const std::str
         fmt::format("scene.seabed: {} x {} heights take about {:.0f} s and {:.1f} GB before "
                     "the first ping; a larger cell_m takes less",
                     grid.columns, grid.rows, seconds * heights, 1e-9 * bytes * heights));
+}
+
+/// A box around the ground that objects at rest may stand on; world x and y. Empty: there are none.
+Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, SceneStore& models) {
+    Eigen::AlignedBox2d ground;
+    for (const ObjectConfig& object : scene.objects) {
+        if (object.trajectory) continue;
+        const Eigen::Affine3d T_world_file = transform_of(object);
+        double reach_m = 0.0;
+        for (const Eigen::Vector3d& vertex : models.shape(file_of(object), object.mesh).vertices) {
+            ground.extend((T_world_file * vertex).head<2>());
+            reach_m = std::max(reach_m, object.scale * vertex.norm());
+        }
+        if (!object.align) continue;
+        // A slope turns it about the origin of its file.
+        const Eigen::Vector2d at(object.position_m.data());
+        ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
+    }
+    for (const ScatterConfig& scatter : scene.scatter) {
+        if (!scatter.area_min_m) continue;
+        ground.extend(Eigen::Vector2d(scatter.area_min_m->data()));
+        ground.extend(Eigen::Vector2d(scatter.area_max_m->data()));
+    }
+    return ground;
+}
+
+/// The part of a heightmap over a box of the world.
+PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed) {
+    PlacedFile map = file_of(heightmap);
+    const Eigen::Vector2d origin(heightmap.origin_m.data());
+    const Eigen::Vector2d low = needed.min() + origin;
+    const Eigen::Vector2d high = needed.max() + origin;
+    map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};
+    return map;
+}
+
+/// The placed seabed of a mission, made above `needed`, world x and y. `announce` gets a sentence
+/// before a large one is made; it may be null.
+PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
+                     const Eigen::AlignedBox2d& needed,
+                     const std::function<void(const std::string&)>& announce) {
+    // A rock beyond the ranges may reach into them.
+    const double margin_m = config.rocks ? 0.5 * config.rocks->diameter_m[1] : 0.0;
+    const Eigen::Vector2d low = needed.min() - Eigen::Vector2d::Constant(margin_m);
+    const Eigen::Vector2d high = needed.max() + Eigen::Vector2d::Constant(margin_m);
+    const BedArea window{low.x(), low.y(), high.x(), high.y()};
+    if (announce) announce_large(grid_of(config, window), announce);
+    PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place};
+    file.seabed = std::make_shared<const Seabed>(make_seabed(config, seed, window));
+    return file;
+}
+
+/// The greatest speed of sound over that by which sonars measure ranges, or 1 if that is more.
+double faster_sound(const Mission& mission) {
+    if (!mission.water.profile) return 1.0;
+    const SoundProfile profile = sound_profile(mission);
+    return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
+}
+
+/// A box around the ground that a ping may receive or an object may stand on; world x and y.
+Eigen::AlignedBox2d needed_ground(const Mission& mission, const Trajectory& vehicle,
+                                  std::span<const Sonar> sonars, SceneStore& models) {
+    Eigen::AlignedBox2d ground = ground_of_objects(mission.scene, models);
+    if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
+        if (ground.isEmpty()) {
+            throw InputError(mission.scene.place,
+                             "trajectory.look_at: a heightmap or a made sea bed has no objects; "
+                             "add scene.objects or scene.scatter");
+        }
+        const double reach_m =
+            look_at->range_m[1] + faster_sound(mission) * farthest_range_m(mission);
+        return {ground.min().array() - reach_m, ground.max().array() + reach_m};
+    }
+    ground.extend(ground_in_range(mission, sonars, vehicle, faster_sound(mission)));
+    return ground;
 }
 
 }  // namespace
@@ -52,50 +130,21 @@ Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sona
     return visible;
 }
 
-Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) {
-    Eigen::AlignedBox2d ground;
-    for (const ObjectConfig& object : scene.objects) {
-        if (object.trajectory) continue;
-        const Eigen::Affine3d T_world_file = transform_of(object);
-        double reach_m = 0.0;
-        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices) {
-            ground.extend((T_world_file * vertex).head<2>());
-            reach_m = std::max(reach_m, object.scale * vertex.norm());
-        }
-        if (!object.align) continue;
-        // A slope turns it about the origin of its file.
-        const Eigen::Vector2d at(object.position_m.data());
-        ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
-    }
-    for (const ScatterConfig& scatter : scene.scatter) {
-        if (!scatter.area_min_m) continue;
-        ground.extend(Eigen::Vector2d(scatter.area_min_m->data()));
-        ground.extend(Eigen::Vector2d(scatter.area_max_m->data()));
-    }
-    return ground;
+std::optional<PlacedFile> bed_of_objects(const Mission& mission, SceneStore& models) {
+    const SceneConfig& scene = mission.scene;
+    if (!scene.seabed || scene.seabed->size_m) return std::nullopt;
+    const Eigen::AlignedBox2d ground = ground_of_objects(scene, models);
+    if (ground.isEmpty()) return std::nullopt;
+    return seabed_of(*scene.seabed, mission.seed, ground, nullptr);
 }
 
-PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed) {
-    PlacedFile map = file_of(heightmap);
-    const Eigen::Vector2d origin(heightmap.origin_m.data());
-    const Eigen::Vector2d low = needed.min() + origin;
-    const Eigen::Vector2d high = needed.max() + origin;
-    map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};
-    return map;
-}
-
-PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
-                     const Eigen::AlignedBox2d& needed,
-                     const std::function<void(const std::string&)>& announce) {
-    // A rock beyond the ranges may reach into them.
-    const double margin_m = config.rocks ? 0.5 * config.rocks->diameter_m[1] : 0.0;
-    const Eigen::Vector2d low = needed.min() - Eigen::Vector2d::Constant(margin_m);
-    const Eigen::Vector2d high = needed.max() + Eigen::Vector2d::Constant(margin_m);
-    const BedArea window{low.x(), low.y(), high.x(), high.y()};
-    if (announce) announce_large(grid_of(config, window), announce);
-    PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place};
-    file.seabed = std::make_shared<const Seabed>(make_seabed(config, seed, window));
-    return file;
+std::optional<PlacedFile> ground_of(const Mission& mission, const Trajectory& vehicle,
+                                    std::span<const Sonar> sonars, SceneStore& models) {
+    const SceneConfig& scene = mission.scene;
+    if (!scene.heightmap && !scene.seabed) return std::nullopt;
+    const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, models);
+    return scene.heightmap ? heightmap_of(*scene.heightmap, needed)
+                           : seabed_of(*scene.seabed, mission.seed, needed, models.announce);
 }
 
 }  // namespace sonarsim

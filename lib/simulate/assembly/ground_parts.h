@@ -1,15 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
-#include <functional>
+#include <optional>
 #include <span>
-#include <string>
 
 #include "input/mission/mission.h"
-#include "input/mission/seabed_keys.h"
 #include "input/scene/placed_file.h"
-#include "input/scene/seabed/seabed.h"
 #include "input/trajectory/trajectory.h"
 #include "simulate/assembly/scene_store.h"
 #include "simulate/sonar/sonar.h"
@@ -22,16 +18,13 @@ namespace sonarsim {
 Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
                                     const Trajectory& vehicle, double faster);
 
-/// A box around the ground that objects at rest may stand on; world x and y. Empty: there are none.
-Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes);
+/// The heightmap or the seabed of a mission, where a ping may receive it or an object may stand on
+/// it; none if the scene has neither.
+std::optional<PlacedFile> ground_of(const Mission& mission, const Trajectory& vehicle,
+                                    std::span<const Sonar> sonars, SceneStore& models);
 
-/// The part of a heightmap over a box of the world.
-PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed);
-
-/// The placed seabed of a mission, made above `needed`, world x and y. `announce` gets a sentence
-/// before a large one is made; it may be null.
-PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
-                     const Eigen::AlignedBox2d& needed,
-                     const std::function<void(const std::string&)>& announce);
+/// The part of a bed without an end on which objects stand, which is a small part of what sonars
+/// reach; none for other grounds, or without objects.
+std::optional<PlacedFile> bed_of_objects(const Mission& mission, SceneStore& models);
 
 }  // namespace sonarsim

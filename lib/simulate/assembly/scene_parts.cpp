@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <variant>
 
@@ -15,14 +16,12 @@
 #include "simulate/assembly/ground_parts.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/sound_profiles.h"
-#include "simulate/water/sound_profile.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The bottom that objects rest on, made at its first use.
+/// The bottom that objects rest on, made at its first use and kept in the store.
 class LazyBottom {
   public:
     /// `ground` is the placed heightmap or seabed, if the scene has one.
@@ -35,12 +34,8 @@ class LazyBottom {
         return !is_of_files() && &object == &scene_.objects.front();
     }
 
-    const Bottom& get() { return *share(); }
-
-    std::shared_ptr<const Bottom> share() {
-        if (!bottom_) bottom_ = models_.bottom(file(), nodes());
-        return bottom_;
-    }
+    std::shared_ptr<const Bottom> share() const { return models_.bottom(file(), nodes()); }
+    const Bottom& get() const { return *share(); }
 
     /// True if there is a bottom that does not move.
     bool exists() const { return is_of_files() || stands_still(scene_.objects.front()); }
@@ -53,7 +48,7 @@ class LazyBottom {
     /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
     /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
     std::string unit_questions(const std::string& object, double length_m, const MeshConfig& of,
-                               double range_m) {
+                               double range_m) const {
         const double bottom_m = get().area().sizes().maxCoeff();
         const MeshConfig& mesh = is_of_files() ? scene_.mesh : scene_.objects.front().mesh;
         std::string out;
@@ -68,7 +63,7 @@ class LazyBottom {
     }
 
     /// " from (x, y) to (x, y)", for messages.
-    std::string reach() {
+    std::string reach() const {
         const auto text = [](const Eigen::Vector2d& p) {
             const auto rounded = [](double x) { return number_text(std::round(1e3 * x) / 1e3); };
             return "(" + rounded(p.x()) + ", " + rounded(p.y()) + ")";
@@ -109,25 +104,21 @@ class LazyBottom {
     const SceneConfig& scene_;
     const std::optional<PlacedFile>& ground_;
     SceneStore& models_;
-    std::shared_ptr<const Bottom> bottom_;
 };
 
 /// The transform of an object, which may rest on the bottom.
 Eigen::Affine3d settled_transform(const ObjectConfig& object, const Surface& shape,
-                                  LazyBottom& bottom, double range_m) {
-    if (object.place_on == ObjectPlace::on_bottom) {
-        const auto T_world_file =
-            put_on_bottom(bottom.get(), shape, Eigen::Vector2d(object.position_m.data()),
-                          {attitude_of(object), object.scale, object.align, object.bury_m});
-        if (T_world_file) return *T_world_file;
-        throw InputError(object.place,
-                         title_of(object) + " reaches beyond the bottom, which lies" +
-                             bottom.reach() + "; move it by position_m, or place: free" +
-                             bottom.unit_questions(title_of(object),
-                                                   object.scale * box_of(shape).sizes().maxCoeff(),
-                                                   object.mesh, range_m));
-    }
-    return transform_of(object);
+                                  const LazyBottom& bottom, double range_m) {
+    if (object.place_on != ObjectPlace::on_bottom) return transform_of(object);
+    const auto T_world_file =
+        put_on_bottom(bottom.get(), shape, Eigen::Vector2d(object.position_m.data()),
+                      {attitude_of(object), object.scale, object.align, object.bury_m});
+    if (T_world_file) return *T_world_file;
+    const double length_m = object.scale * box_of(shape).sizes().maxCoeff();
+    throw InputError(object.place,
+                     title_of(object) + " reaches beyond the bottom, which lies" + bottom.reach() +
+                         "; move it by position_m, or place: free" +
+                         bottom.unit_questions(title_of(object), length_m, object.mesh, range_m));
 }
 
 /// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
@@ -155,8 +146,11 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
                          number_text(end_s) + " s; let its trajectory last as long");
 }
 
-/// An object that is turned by more than this is not expected to stand upright in its file.
-constexpr double max_tilt_deg = 45.0;
+/// True unless an object is turned so far that it is not expected to stand upright in its file.
+bool is_upright(std::initializer_list<double> turns_deg) {
+    constexpr double max_tilt_deg = 45.0;
+    return std::ranges::all_of(turns_deg, [](double x) { return std::abs(x) < max_tilt_deg; });
+}
 
 void add_orientation_warning(const std::string& question, SceneParts& parts) {
     if (question.empty() ||
@@ -165,15 +159,11 @@ void add_orientation_warning(const std::string& question, SceneParts& parts) {
     parts.orientation_warnings.push_back(question);
 }
 
-bool is_upright(const ObjectConfig& object) {
-    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < max_tilt_deg;
-}
-
 /// Scatters objects. The error of objects without room says where the bottom lies, and asks for
 /// the units.
 std::vector<ScatteredObject> scattered(const ScatterConfig& config,
                                        std::span<const Surface* const> shapes, std::uint32_t index,
-                                       std::uint64_t seed, LazyBottom& bottom, double range_m,
+                                       std::uint64_t seed, const LazyBottom& bottom, double range_m,
                                        TakenGround& taken) {
     const Bottom& ground = bottom.get();
     try {
@@ -190,20 +180,19 @@ std::vector<ScatteredObject> scattered(const ScatterConfig& config,
 
 /// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
-                   double range_m, Shapes& shapes, LazyBottom& bottom, TakenGround& taken,
+                   double range_m, SceneStore& models, const LazyBottom& bottom, TakenGround& taken,
                    SceneParts& parts) {
     std::vector<PlacedFile> kinds;
     std::vector<const Surface*> surfaces;
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
         kinds.back().class_name = config.class_of(kinds.size() - 1);
-        surfaces.push_back(&shapes.of(kinds.back(), config.mesh));
+        surfaces.push_back(&models.shape(kinds.back(), config.mesh));
         if (!surfaces.back()->triangles.empty()) continue;
         throw InputError(config.place, path.string() + " has no surface to scatter");
     }
-    const bool upright =
-        std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
-                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
+    const bool upright = is_upright(
+        {config.roll_deg[0], config.roll_deg[1], config.pitch_deg[0], config.pitch_deg[1]});
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
         add_orientation_warning(up_question(kinds[i], *surfaces[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
@@ -216,48 +205,12 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     }
 }
 
-/// The greatest speed of sound over that by which sonars measure ranges, or 1 if that is more.
-double faster_sound(const Mission& mission) {
-    if (!mission.water.profile) return 1.0;
-    const SoundProfile profile = sound_profile(mission);
-    return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
-}
-
-/// A box around the ground that a ping may receive or an object may stand on; world x and y.
-Eigen::AlignedBox2d needed_ground(const Mission& mission, const Trajectory& vehicle,
-                                  std::span<const Sonar> sonars, Shapes& shapes) {
-    Eigen::AlignedBox2d ground = ground_of_objects(mission.scene, shapes);
-    if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
-        if (ground.isEmpty()) {
-            throw InputError(mission.scene.place,
-                             "trajectory.look_at: a heightmap or a made sea bed has no objects; "
-                             "add scene.objects or scene.scatter");
-        }
-        const double reach_m =
-            look_at->range_m[1] + faster_sound(mission) * farthest_range_m(mission);
-        return {ground.min().array() - reach_m, ground.max().array() + reach_m};
-    }
-    ground.extend(ground_in_range(mission, sonars, vehicle, faster_sound(mission)));
-    return ground;
-}
-
-/// The part of a bed without an end on which objects stand, which is a small part of what sonars
-/// reach; nothing for other grounds, or without objects.
-std::optional<PlacedFile> bed_of_objects(const Mission& mission, Shapes& shapes) {
-    const SceneConfig& scene = mission.scene;
-    if (!scene.seabed || scene.seabed->size_m) return std::nullopt;
-    const Eigen::AlignedBox2d ground = ground_of_objects(scene, shapes);
-    if (ground.isEmpty()) return std::nullopt;
-    return seabed_of(*scene.seabed, mission.seed, ground, nullptr);
-}
-
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models, bool places_only) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
-    Shapes& shapes = models.shapes;
     if (!scene.file.empty()) {
         const PlacedFile& file =
             parts.files.emplace_back(file_of(scene.file, scene.mesh, scene.place));
@@ -269,26 +222,25 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         (lines && lines->altitude_m > 0.0) ||
         std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
     std::optional<PlacedFile> below_objects =
-        needs_ground ? std::nullopt : bed_of_objects(mission, shapes);
+        needs_ground ? std::nullopt : bed_of_objects(mission, models);
     std::optional<PlacedFile> ground;
-    if ((scene.heightmap || scene.seabed) && !(places_only && below_objects)) {
-        const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, shapes);
-        ground = scene.heightmap ? heightmap_of(*scene.heightmap, needed)
-                                 : seabed_of(*scene.seabed, mission.seed, needed, models.announce);
+    if (!(places_only && below_objects)) ground = ground_of(mission, vehicle, sonars, models);
+    if (ground) {
         parts.seabed = ground->seabed;
+        parts.files.push_back(*ground);
     }
-    if (ground) parts.files.push_back(*ground);
-    LazyBottom bottom(scene, below_objects ? below_objects : ground, models);
+    const LazyBottom bottom(scene, below_objects ? below_objects : ground, models);
     TakenGround taken;
     const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {
         PlacedFile& file = parts.files.emplace_back(file_of(object));
-        const Surface& shape = shapes.of(file, object.mesh);
+        const Surface& shape = models.shape(file, object.mesh);
         if (shape.triangles.empty()) {
             throw InputError(object.place, title_of(object) + ": there is no surface in " +
                                                object.file.string() + "; name another file");
         }
-        if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
+        if (is_upright({object.rpy_deg[0], object.rpy_deg[1]}))
+            add_orientation_warning(up_question(file, shape), parts);
         file.T_world_file = settled_transform(object, shape, bottom, range_m);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));
@@ -308,7 +260,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, range_m,
-                      shapes, bottom, taken, parts);
+                      models, bottom, taken, parts);
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();

@@ -1,5 +1,7 @@
 #include "simulate/assembly/scene_store.h"
 
+#include <algorithm>
+
 #include "core/hash.h"
 
 namespace sonarsim {
@@ -13,6 +15,14 @@ bool have_same_surface(const PlacedFile& a, const PlacedFile& b) {
 }
 
 }  // namespace
+
+const Surface& SceneStore::shape(const PlacedFile& file, const MeshConfig& mesh) {
+    const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
+        return shape.file.native() == file.file.native() && shape.mesh == mesh;
+    });
+    if (known != shapes_.end()) return known->surface;
+    return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, *this)}).surface;
+}
 
 std::shared_ptr<const Bottom> SceneStore::bottom(const PlacedFile& placed,
                                                  const std::vector<std::string>& nodes) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -19,30 +18,6 @@
 
 namespace sonarsim {
 
-/// The surfaces of files; files read with the same options share one.
-class Shapes {
-  public:
-    explicit Shapes(SceneFiles& models) : models_(models) {}
-
-    const Surface& of(const PlacedFile& file, const MeshConfig& mesh) {
-        const auto known = std::ranges::find_if(shapes_, [&](const Shape& shape) {
-            return shape.file.native() == file.file.native() && shape.mesh == mesh;
-        });
-        if (known != shapes_.end()) return known->surface;
-        return shapes_.emplace_back(Shape{file.file, mesh, surface_of(file, models_)}).surface;
-    }
-
-  private:
-    struct Shape {
-        std::filesystem::path file;
-        MeshConfig mesh;
-        Surface surface;
-    };
-
-    SceneFiles& models_;
-    std::deque<Shape> shapes_;  // a deque, so that references stay valid
-};
-
 /// The variants of a mission often share the files of scenes, the surfaces of objects, the last
 /// bottom made of them, the tree of rays of the first file and the fans of pictures. Not
 /// thread-safe, except for the last two.
@@ -50,11 +25,13 @@ class SceneStore : public SceneFiles {
   public:
     const std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
-    Shapes shapes{*this};
 
     /// Gets a sentence before a part of the scene is made that takes many seconds, with the key
     /// that makes it smaller; null: it goes unsaid.
     std::function<void(const std::string&)> announce = {};
+
+    /// The surface of a file; files read with the same options share one.
+    const Surface& shape(const PlacedFile& file, const MeshConfig& mesh);
 
     /// The bottom that the nodes of a placed file form; no patterns: all nodes. InputError as
     /// surface_of().
@@ -65,6 +42,13 @@ class SceneStore : public SceneFiles {
     const std::string& sum_of(const std::filesystem::path& file);
 
   private:
+    struct Shape {
+        std::filesystem::path file;
+        MeshConfig mesh;
+        Surface surface;
+    };
+
+    std::deque<Shape> shapes_;  ///< a deque, so that references stay valid
     std::map<std::filesystem::path, std::string> sums_;
     PlacedFile placed_;
     std::vector<std::string> nodes_;
