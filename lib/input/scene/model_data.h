@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -73,6 +74,20 @@ inline tinygltf::Node& add_node(tinygltf::Model& model, const std::string& name,
 /// along columns and rows, and the place of the first vertex.
 inline std::vector<double> grid_matrix(double column_m, double row_m, double x_m, double y_m) {
     return {column_m, 0.0, 0.0, 0.0, 0.0, row_m, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x_m, y_m, 0.0, 1.0};
+}
+
+/// (column, row, height) of each height of a grid, row by row. The first vertex has the column and
+/// row `first`; `parts` vertices make a step of 1.
+inline std::vector<float> grid_positions(const std::vector<float>& heights, std::size_t columns,
+                                         const Eigen::Array2f& first = Eigen::Array2f::Zero(),
+                                         const Eigen::Array2f& parts = Eigen::Array2f::Ones()) {
+    std::vector<float> positions;
+    positions.reserve(3 * heights.size());
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        const Eigen::Array2f at = first + Eigen::Array2f(k % columns, k / columns) / parts;
+        positions.insert(positions.end(), {at.x(), at.y(), heights[k]});
+    }
+    return positions;
 }
 
 /// The index of the material of this name, which is added if need be; -1 for one without a name.

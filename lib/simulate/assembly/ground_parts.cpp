@@ -69,9 +69,8 @@ PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
                      const std::function<void(const std::string&)>& announce) {
     // A rock beyond the ranges may reach into them.
     const double margin_m = config.rocks ? 0.5 * config.rocks->diameter_m[1] : 0.0;
-    const Eigen::Vector2d low = needed.min() - Eigen::Vector2d::Constant(margin_m);
-    const Eigen::Vector2d high = needed.max() + Eigen::Vector2d::Constant(margin_m);
-    const BedArea window{low.x(), low.y(), high.x(), high.y()};
+    const Eigen::AlignedBox2d window(needed.min().array() - margin_m,
+                                     needed.max().array() + margin_m);
     if (announce) announce_large(grid_of(config, window), announce);
     PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place};
     file.seabed = std::make_shared<const Seabed>(make_seabed(config, seed, window));

@@ -12,7 +12,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/heightmap/height_grid.h"
 #include "input/scene/images/image_place.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/model_data.h"
@@ -23,6 +22,46 @@ namespace {
 
 /// The most heights of a map: with two triangles each, a scene then takes about 12 GB.
 constexpr std::size_t max_heights = std::size_t{1} << 25;
+
+/// The value at `t` between the second and the third of four neighbours.
+float cubic(float before, float first, float second, float after, float t) {
+    if (std::isnan(before)) before = 2.0F * first - second;
+    if (std::isnan(after)) after = 2.0F * second - first;
+    const float a = 2.0F * before - 5.0F * first + 4.0F * second - after;
+    const float b = 3.0F * (first - second) + after - before;
+    return first + 0.5F * t * (second - before + t * (a + t * b));
+}
+
+/// A grid with `parts` - 1 rows more between two rows.
+HeightGrid with_rows(const HeightGrid& grid, std::size_t parts) {
+    HeightGrid out{grid.columns, (grid.rows - 1) * parts + 1, {}};
+    out.values.reserve(out.columns * out.rows);
+    const auto at = [&](std::size_t row, std::size_t column) {
+        return row < grid.rows ? grid.values[row * grid.columns + column] : std::nanf("");
+    };
+    for (std::size_t k = 0; k < out.rows; ++k) {
+        const std::size_t row = k / parts;
+        const float t = static_cast<float>(k % parts) / static_cast<float>(parts);
+        for (std::size_t column = 0; column < grid.columns; ++column) {
+            const float first = at(row, column);
+            // Row -1 wraps around to a number beyond the last.
+            out.values.push_back(t == 0.0F ? first
+                                           : cubic(at(row - 1, column), first, at(row + 1, column),
+                                                   at(row + 2, column), t));
+        }
+    }
+    return out;
+}
+
+HeightGrid transposed(const HeightGrid& grid) {
+    HeightGrid out{grid.rows, grid.columns, {}};
+    out.values.reserve(grid.values.size());
+    for (std::size_t column = 0; column < grid.columns; ++column) {
+        for (std::size_t row = 0; row < grid.rows; ++row)
+            out.values.push_back(grid.values[row * grid.columns + column]);
+    }
+    return out;
+}
 
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
@@ -72,22 +111,6 @@ void require_room(const HeightGrid& heights, std::size_t across, std::size_t dow
                                         columns, rows, max_heights));
 }
 
-/// (column, row, value) of each height.
-std::vector<float> positions_of(const HeightGrid& heights, const PixelWindow& window, float across,
-                                float down) {
-    std::vector<float> positions;
-    positions.reserve(3 * heights.values.size());
-    for (std::size_t k = 0; k < heights.values.size(); ++k) {
-        const std::size_t row_number = k / heights.columns;
-        const auto column = static_cast<float>(k % heights.columns);
-        const auto row = static_cast<float>(row_number);
-        for (const float x : {static_cast<float>(window.columns[0]) + column / across,
-                              static_cast<float>(window.rows[0]) + row / down, heights.values[k]})
-            positions.push_back(x);
-    }
-    return positions;
-}
-
 void require_heights(const Image& image, const Location& where) {
     if (image.channels != 1) {
         throw InputError(where, "has " + std::to_string(image.channels) +
@@ -111,6 +134,11 @@ bool is_odd(float value, const Image& image) {
 }
 
 }  // namespace
+
+HeightGrid HeightGrid::interpolated(std::size_t across, std::size_t down) const {
+    const HeightGrid tall = down == 1 ? *this : with_rows(*this, down);
+    return across == 1 ? tall : transposed(with_rows(transposed(tall), across));
+}
 
 tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule) {
     const Location where{path.string()};
@@ -138,8 +166,9 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     const std::size_t down = parts_of_cell(grid.row_m, rule.cell_m);
     require_room(heights, across, down, where);
     heights = heights.interpolated(across, down);
-    const std::vector<float> positions =
-        positions_of(heights, window, static_cast<float>(across), static_cast<float>(down));
+    const std::vector<float> positions = grid_positions(
+        heights.values, heights.columns, Eigen::Array2f(window.columns[0], window.rows[0]),
+        Eigen::Array2f(across, down));
     const std::vector<std::uint32_t> corners =
         corners_of_cells(heights, grid.column_m * grid.row_m > 0.0);
     if (corners.empty()) throw InputError(where, "has no three neighbours with known heights");

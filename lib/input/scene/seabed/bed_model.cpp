@@ -131,18 +131,10 @@ int add_rock_shape(const Surface& surface, int material, tinygltf::Model& model)
 }  // namespace
 
 BedGround ground_of(const Seabed& bed) {
-    BedGround out{
-        {},
-        std::vector<std::vector<std::uint32_t>>(bed.materials.size() + mixtures_of(bed).size())};
     const auto width = static_cast<std::uint32_t>(bed.grid.columns);
     const auto size = static_cast<std::uint32_t>(bed.heights.size());
-    out.vertices.reserve(3 * bed.heights.size());
-    for (std::uint32_t i = 0; i < size; ++i) {
-        const std::uint32_t row = i / width;
-        for (const float x :
-             {static_cast<float>(i % width), static_cast<float>(row), bed.heights[i]})
-            out.vertices.push_back(x);
-    }
+    BedGround out{grid_positions(bed.heights, width), {}};
+    out.corners.resize(bed.materials.size() + mixtures_of(bed).size());
     Borders borders(bed.sediments, out);
     for (std::uint32_t i = 0; i + width < size; ++i) {
         if ((i + 1) % width == 0) continue;

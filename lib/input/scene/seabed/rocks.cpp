@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
+#include "input/scene/seabed/relief.h"
 
 namespace sonarsim {
 
@@ -100,8 +101,7 @@ Surface cut_rock(const Surface& ball, const std::vector<Cut>& cuts) {
 
 /// A point of a Poisson process, and the counter of its further draws.
 struct BedPoint {
-    double x_m = 0.0;
-    double y_m = 0.0;
+    Eigen::Vector2d at_m;
     std::uint32_t tile_x = 0;
     std::uint32_t tile_y = 0;
     std::uint32_t number = 0;  ///< within its tile
@@ -118,7 +118,7 @@ constexpr double points_per_tile = 8.0;
 /// The number of points of a tile, by inversion of Poisson's distribution.
 std::uint32_t count_of_tile(std::uint32_t tile_x, std::uint32_t tile_y, PhiloxKey key) {
     constexpr std::uint32_t counter = 0xFFFFFFFFU;  // points are counted from 0
-    const double u = BedPoint{0.0, 0.0, tile_x, tile_y, counter}.draw(0, key);
+    const double u = BedPoint{{}, tile_x, tile_y, counter}.draw(0, key);
     double probability = exponential(-points_per_tile);
     double sum = probability;
     std::uint32_t count = 0;
@@ -132,26 +132,27 @@ std::uint32_t count_of_tile(std::uint32_t tile_x, std::uint32_t tile_y, PhiloxKe
 }
 
 /// The points of a Poisson process in an area. The size of the tiles depends only on the density.
-std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key) {
+std::vector<BedPoint> poisson_points(const Eigen::AlignedBox2d& area, double density_per_m2,
+                                     PhiloxKey key) {
     std::vector<BedPoint> out;
     if (density_per_m2 <= 0.0) return out;
     const double tile_m = std::sqrt(points_per_tile / density_per_m2);
     const auto tile_of = [&](double x) {
         return static_cast<std::int64_t>(std::floor(x / tile_m));
     };
-    for (std::int64_t j = tile_of(area[1]); j <= tile_of(area[3]); ++j) {
-        for (std::int64_t i = tile_of(area[0]); i <= tile_of(area[2]); ++i) {
+    for (std::int64_t j = tile_of(area.min().y()); j <= tile_of(area.max().y()); ++j) {
+        for (std::int64_t i = tile_of(area.min().x()); i <= tile_of(area.max().x()); ++i) {
             const auto tile_x = static_cast<std::uint32_t>(i);
             const auto tile_y = static_cast<std::uint32_t>(j);
             const std::uint32_t count = count_of_tile(tile_x, tile_y, key);
             for (std::uint32_t n = 0; n < count; ++n) {
                 const PhiloxBlock block = philox({tile_x, tile_y, n, 0}, key);
-                const double x =
-                    (static_cast<double>(i) + unit_double(block.x0, block.x1)) * tile_m;
-                const double y =
-                    (static_cast<double>(j) + unit_double(block.x2, block.x3)) * tile_m;
-                if (x < area[0] || x >= area[2] || y < area[1] || y >= area[3]) continue;
-                out.push_back({x, y, tile_x, tile_y, n});
+                const Eigen::Vector2d in_tile(unit_double(block.x0, block.x1),
+                                              unit_double(block.x2, block.x3));
+                const Eigen::Vector2d at_m = (Eigen::Vector2d(i, j) + in_tile) * tile_m;
+                const bool is_inside = (at_m.array() >= area.min().array()).all() &&
+                                       (at_m.array() < area.max().array()).all();
+                if (is_inside) out.push_back({at_m, tile_x, tile_y, n});
             }
         }
     }
@@ -184,8 +185,8 @@ std::vector<Surface> rock_shapes(std::uint64_t seed) {
     return out;
 }
 
-std::vector<Rock> rocks_in(const BedArea& area, const BedRockConfig& rocks, double cell_m,
-                           std::uint64_t seed) {
+std::vector<Rock> rocks_in(const Eigen::AlignedBox2d& area, const BedRockConfig& rocks,
+                           double cell_m, std::uint64_t seed) {
     const PhiloxKey key = bed_key(seed, BedDraw::rocks);
     std::vector<Rock> out;
     for (const BedPoint& point : poisson_points(area, rocks.density_per_m2, key)) {
@@ -200,7 +201,7 @@ std::vector<Rock> rocks_in(const BedArea& area, const BedRockConfig& rocks, doub
         rock.T_world_shape.linear() << turn.cos, -turn.sin, 0.0, turn.sin, turn.cos, 0.0, 0.0, 0.0,
             1.0;
         rock.T_world_shape.linear() *= rock.diameter_m;
-        rock.T_world_shape.translation() << point.x_m, point.y_m, 0.0;
+        rock.T_world_shape.translation() << point.at_m, 0.0;
     }
     return out;
 }

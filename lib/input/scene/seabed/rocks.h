@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "input/mission/seabed_keys.h"
-#include "input/scene/seabed/bed_grid.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {
@@ -26,7 +25,7 @@ std::vector<Surface> rock_shapes(std::uint64_t seed);
 /// the transform is 0. They are a Poisson process, drawn tile by tile of the endless plane, so that
 /// an area has the same rocks, in the same order, whatever else is made. Their diameters follow the
 /// power law between the two limits. Rocks that cover more cells have more triangles.
-std::vector<Rock> rocks_in(const BedArea& area, const BedRockConfig& rocks, double cell_m,
-                           std::uint64_t seed);
+std::vector<Rock> rocks_in(const Eigen::AlignedBox2d& area, const BedRockConfig& rocks,
+                           double cell_m, std::uint64_t seed);
 
 }  // namespace sonarsim

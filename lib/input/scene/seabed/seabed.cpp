@@ -58,9 +58,9 @@ void add_rocks(const SeabedConfig& config, std::uint64_t seed, Seabed& bed) {
     constexpr double max_rocks = 50000.0;
     const BedGrid& grid = bed.grid;
     // Within the outer heights, where every point has a height.
-    const BedArea area{grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1),
-                       grid.y_m(0)};
-    const double count = (area[2] - area[0]) * (area[3] - area[1]) * config.rocks->density_per_m2;
+    const Eigen::AlignedBox2d area(Eigen::Vector2d(grid.x_m(0), grid.y_m(grid.rows - 1)),
+                                   Eigen::Vector2d(grid.x_m(grid.columns - 1), grid.y_m(0)));
+    const double count = area.volume() * config.rocks->density_per_m2;
     if (count > max_rocks) {
         throw InputError(config.place, fmt::format("the part of the seabed that the mission needs "
                                                    "has some {:.0f} rocks, and at most {:.0f} have "
@@ -173,10 +173,10 @@ std::vector<std::string> materials_of(const Seabed& bed) {
     return names;
 }
 
-BedGrid grid_of(const SeabedConfig& config, const BedArea& window) {
+BedGrid grid_of(const SeabedConfig& config, const Eigen::AlignedBox2d& window) {
     const std::array<double, 2> size = config.size_m.value_or(std::array{0.0, 0.0});
-    const auto x = cells_within(window[0], window[2], config.cell_m, size[0]);
-    const auto y = cells_within(window[1], window[3], config.cell_m, size[1]);
+    const auto x = cells_within(window.min().x(), window.max().x(), config.cell_m, size[0]);
+    const auto y = cells_within(window.min().y(), window.max().y(), config.cell_m, size[1]);
     const double columns = x[1] - x[0];
     const double rows = y[1] - y[0];
     if (columns < 2.0 || rows < 2.0) {
@@ -194,7 +194,8 @@ BedGrid grid_of(const SeabedConfig& config, const BedArea& window) {
             static_cast<int>(columns), static_cast<int>(rows)};
 }
 
-Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed, const BedArea& window) {
+Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed,
+                   const Eigen::AlignedBox2d& window) {
     Seabed bed;
     bed.grid = grid_of(config, window);
     bed.class_name = config.class_name;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "input/mission/seabed_keys.h"
-#include "input/scene/seabed/bed_grid.h"
 #include "input/scene/seabed/relief.h"
 #include "input/scene/seabed/rocks.h"
 #include "input/scene/surface.h"
@@ -57,11 +56,12 @@ std::vector<BedMixture> mixtures_of(const Seabed& bed);
 std::vector<std::string> materials_of(const Seabed& bed);
 
 /// The heights within `window`. InputError as make_seabed().
-BedGrid grid_of(const SeabedConfig& config, const BedArea& window);
+BedGrid grid_of(const SeabedConfig& config, const Eigen::AlignedBox2d& window);
 
 /// Makes the part of a bed within `window`. The same keys and seed make the same bed in every part,
 /// except for the numbers of the rocks. InputError at the section's place for a part with more than
 /// 2^25 heights, fewer than 2 x 2, or more than 50,000 rocks.
-Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed, const BedArea& window);
+Seabed make_seabed(const SeabedConfig& config, std::uint64_t seed,
+                   const Eigen::AlignedBox2d& window);
 
 }  // namespace sonarsim
