@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "input/scene/copies.h"
-#include "input/scene/gltf/mesh_builder.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"
 #include "input/scene/objects.h"
@@ -80,9 +79,53 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     scene.bounds_max = scene.origin + box.max();
 }
 
-/// `materials` must be empty.
-Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
-              std::size_t sharing_threshold, MaterialNumbers& materials) {
+/// True if all of the mesh's instance is the bottom of heights.
+bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
+    if (!file.bottom) return false;
+    return file.bottom->empty() || (file.name.empty() && fits_any(*file.bottom, mesh.node));
+}
+
+/// Opens the files and appends the names and classes of their instances to those of `scene`. Names
+/// of objects in the mission take precedence, then those of the heightmap or seabed: nodes with the
+/// same name get another one. InputError for a name that is taken.
+std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
+                                 Scene& scene) {
+    UniqueNames names;
+    for (const PlacedFile& file : files) {
+        if (file.name.empty() || names.taken.insert(file.name).second) continue;
+        throw InputError(file.place, "there is an object '" + printable(file.name) +
+                                         "' already; give each a name of its own");
+    }
+    // The rules of the mission know the ground by the names of its nodes, so they come first.
+    std::vector<OpenFile> open(files.size());
+    for (const bool ground : {true, false}) {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            const PlacedFile& file = files[i];
+            if ((file.heightmap || file.seabed) != ground) continue;
+            open[i].placed = &file;
+            open[i].model = &models.model(file);
+            open[i].meshes = place_meshes(*open[i].model, file, names);
+        }
+    }
+    for (OpenFile& next : open) {
+        const PlacedFile& file = *next.placed;
+        for (const PlacedMesh& mesh : next.meshes) {
+            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
+            if (!is_part) {
+                scene.instances.push_back(mesh.instance);
+                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
+                                                                         : file.class_name);
+                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
+            }
+            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
+        }
+    }
+    return open;
+}
+
+/// `materials` has no numbers yet.
+Scene compose(std::span<const PlacedFile> files, SceneFiles& models, std::size_t sharing_threshold,
+              MaterialNumbers& materials) {
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
     ReadingLimit looked_at;
@@ -93,14 +136,14 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     for (std::size_t i = 0; i < open.size(); ++i) {
         const OpenFile& file = open[i];
         if (RepeatedFile* const repeated = repeats.by_file[i]) {
-            add_copy(*repeated, file, rules, limit, materials, scene);
+            add_copy(*repeated, file, limit, materials, scene);
             continue;
         }
         Body body;
         MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
         scene.rejects.skipped_primitives +=
             for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
-                const std::uint32_t material = materials.of(primitive, rules, scene);
+                const std::uint32_t material = materials.of(primitive, scene);
                 take_class_of_material(primitive, scene.instance_classes[primitive.instance]);
                 if (file.placed->moves) {
                     moving.add(primitive, [&] { body.triangle_material.push_back(material); });
@@ -121,12 +164,6 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     }
     set_bounds(extents, repeats, scene);
     return scene;
-}
-
-/// True if all of the mesh's instance is the bottom of heights.
-bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
-    if (!file.bottom) return false;
-    return file.bottom->empty() || (file.name.empty() && fits_any(*file.bottom, mesh.node));
 }
 
 /// InputError, with the place in the mission, for a material that the table lacks.
@@ -171,41 +208,6 @@ void add_prevailing(const MaterialTable& table, Scene& scene, std::vector<std::s
 
 }  // namespace
 
-std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
-                                 Scene& scene) {
-    UniqueNames names;
-    for (const PlacedFile& file : files) {
-        if (file.name.empty() || names.taken.insert(file.name).second) continue;
-        throw InputError(file.place, "there is an object '" + printable(file.name) +
-                                         "' already; give each a name of its own");
-    }
-    // The rules of the mission know the ground by the names of its nodes, so they come first.
-    std::vector<OpenFile> open(files.size());
-    for (const bool ground : {true, false}) {
-        for (std::size_t i = 0; i < files.size(); ++i) {
-            const PlacedFile& file = files[i];
-            if ((file.heightmap || file.seabed) != ground) continue;
-            open[i].placed = &file;
-            open[i].model = &models.model(file);
-            open[i].meshes = place_meshes(*open[i].model, file, names);
-        }
-    }
-    for (OpenFile& next : open) {
-        const PlacedFile& file = *next.placed;
-        for (const PlacedMesh& mesh : next.meshes) {
-            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
-            if (!is_part) {
-                scene.instances.push_back(mesh.instance);
-                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
-                                                                         : file.class_name);
-                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
-            }
-            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
-        }
-    }
-    return open;
-}
-
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
                  std::size_t sharing_threshold) {
@@ -214,20 +216,18 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
     for (const PlacedFile& file : files) {
         if (file.seabed) add_mixtures(*file.seabed, mixed);
     }
-    MaterialRules rules;
-    rules.fallback = material_default;
+    MaterialNumbers materials{.fallback = material_default};
     for (const Material& material : mixed.materials)
-        rules.known.insert(material.name);
-    MaterialNumbers materials;
-    Scene scene = compose(files, models, rules, sharing_threshold, materials);
+        materials.known.insert(material.name);
+    Scene scene = compose(files, models, sharing_threshold, materials);
     add_prevailing(mixed, scene, materials.users);
     resolve_materials(scene, mixed, water, materials.users);
     return scene;
 }
 
 Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models) {
-    MaterialNumbers materials;
-    return compose({&file, 1}, models, {true, {}, {}}, share_nothing, materials);
+    MaterialNumbers materials{.nameless_allowed = true};
+    return compose({&file, 1}, models, share_nothing, materials);
 }
 
 Scene load_scene_geometry(const std::filesystem::path& path) {

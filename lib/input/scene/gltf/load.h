@@ -14,8 +14,6 @@
 
 namespace sonarsim {
 
-struct OpenFile;  // input/scene/gltf/primitives.h
-
 /// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.
 inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
 
@@ -46,12 +44,6 @@ inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::m
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
                  std::size_t sharing_threshold = share_nothing);
-
-/// Opens the files and appends the names and classes of their instances to those of `scene`. Names
-/// of objects in the mission take precedence, then those of the heightmap or seabed: nodes with the
-/// same name get another one. InputError for a name that is taken.
-std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
-                                 Scene& scene);
 
 /// Reads one file without a table of materials: materials have only a name, "(no material)" if the
 /// file names none.

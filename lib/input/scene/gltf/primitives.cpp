@@ -31,17 +31,8 @@ std::string name_in_file(const PlacedPrimitive& primitive) {
     return own.empty() ? material->name : own;
 }
 
-}  // namespace
-
-void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
-    work += piece_cost;
-    if (source) work += source->count + source->positions.sparse_at.size();
-    if (work <= max_triangles) return;
-    throw InputError(Location{file},
-                     "places more than 2^28 triangles (a primitive counts as 64 more)");
-}
-
-std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules) {
+/// The name of a primitive's material in the CSV. InputError if it has none.
+std::string material_name(const PlacedPrimitive& primitive, const MaterialNumbers& rules) {
     const PlacedFile& placed = *primitive.file.placed;
     if (!placed.material.empty()) return placed.material;
     std::string name = name_in_file(primitive);
@@ -67,10 +58,32 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
                      "give scene.material_default");
 }
 
+/// "'NODE' in FILE (mission.yaml:6:7)": the primitive's node, for messages.
 std::string user_of(const PlacedPrimitive& primitive) {
     const PlacedFile& file = *primitive.file.placed;
     return "'" + printable(primitive.mesh.instance) + "' in " + file.file.string() +
            (file.place.file.empty() ? "" : " (" + file.place.text() + ")");
+}
+
+}  // namespace
+
+void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
+    work += piece_cost;
+    if (source) work += source->count + source->positions.sparse_at.size();
+    if (work <= max_triangles) return;
+    throw InputError(Location{file},
+                     "places more than 2^28 triangles (a primitive counts as 64 more)");
+}
+
+std::uint32_t MaterialNumbers::of(const PlacedPrimitive& primitive, Scene& scene) {
+    const std::string name = material_name(primitive, *this);
+    const auto number = static_cast<std::uint32_t>(scene.materials.size());
+    const auto [entry, is_new] = numbers.emplace(name, number);
+    if (is_new) {
+        scene.materials.emplace_back().name = name;
+        users.push_back(user_of(primitive));
+    }
+    return entry->second;
 }
 
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name) {

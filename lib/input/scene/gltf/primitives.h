@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "input/scene/gltf/nodes.h"
 #include "input/scene/gltf/triangles.h"
 #include "input/scene/placed_file.h"
+#include "input/scene/scene.h"
 
 namespace sonarsim {
 
@@ -73,18 +75,17 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
     return skipped;
 }
 
-/// The names that materials of the scene may have.
-struct MaterialRules {
-    bool nameless_allowed = false;  ///< a missing name becomes "(no material)"
-    std::set<std::string> known;    ///< names in the CSV
-    std::string fallback;           ///< replaces a missing or unknown name; "": no replacement
+/// The materials of a scene, numbered in the order in which they occur.
+struct MaterialNumbers {
+    bool nameless_allowed = false;     ///< a missing name becomes "(no material)"
+    std::set<std::string> known = {};  ///< names in the CSV
+    std::string fallback = {};         ///< replaces a missing or unknown name; "": no replacement
+    std::map<std::string, std::uint32_t> numbers = {};
+    std::vector<std::string> users = {};  ///< the first node that uses each material, for messages
+
+    /// The index of a primitive's material in the scene, which gets it. InputError if it has none.
+    std::uint32_t of(const PlacedPrimitive& primitive, Scene& scene);
 };
-
-/// The name of a primitive's material in the CSV. InputError if it has none.
-std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules);
-
-/// "'NODE' in FILE (mission.yaml:6:7)": the primitive's node, for messages.
-std::string user_of(const PlacedPrimitive& primitive);
 
 /// Gives an instance without a class the class of its materials. InputError if they differ.
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);

@@ -34,15 +34,15 @@ std::size_t triangles_of(const OpenFile& file) {
     return triangles;
 }
 
-void add_repeated_mesh(RepeatedFile& repeated, const MaterialRules& rules, ReadingLimit& limit,
-                       MaterialNumbers& materials, Scene& scene) {
+void add_repeated_mesh(RepeatedFile& repeated, ReadingLimit& limit, MaterialNumbers& materials,
+                       Scene& scene) {
     repeated.mesh = static_cast<std::uint32_t>(scene.shared_meshes.size());
     repeated.class_name = scene.instance_classes[repeated.open.instance_of_mesh.front()];
     SharedMesh& mesh = scene.shared_meshes.emplace_back();
     MeshBuilder<SharedMesh> builder{mesh, scene.rejects, repeated.extent.centre()};
     scene.rejects.skipped_primitives +=
         for_each_primitive(repeated.open, limit, [&](const PlacedPrimitive& primitive) {
-            const std::uint32_t material = materials.of(primitive, rules, scene);
+            const std::uint32_t material = materials.of(primitive, scene);
             take_class_of_material(primitive, repeated.class_name);
             builder.add(primitive, [&] { mesh.triangle_material.push_back(material); });
         });
@@ -125,9 +125,9 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
     return repeats;
 }
 
-void add_copy(RepeatedFile& repeated, const OpenFile& file, const MaterialRules& rules,
-              ReadingLimit& limit, MaterialNumbers& materials, Scene& scene) {
-    if (!repeated.mesh) add_repeated_mesh(repeated, rules, limit, materials, scene);
+void add_copy(RepeatedFile& repeated, const OpenFile& file, ReadingLimit& limit,
+              MaterialNumbers& materials, Scene& scene) {
+    if (!repeated.mesh) add_repeated_mesh(repeated, limit, materials, scene);
     const std::uint32_t instance = file.instance_of_mesh.front();
     scene.instance_classes[instance] = repeated.class_name;
     scene.copies.push_back(

@@ -153,23 +153,17 @@ std::uint32_t vertex_index(const Accessor& accessor, std::size_t i) {
     return bytes ? static_cast<std::uint32_t>(accessor.component->read(bytes, false)) : 0;
 }
 
-Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
-    const unsigned char* const bytes = element(accessor, i);
-    if (!bytes) return Eigen::Vector3d::Zero();
-    const auto component = [&](std::size_t k) {
-        return accessor.component->read(bytes + k * accessor.component->bytes,
-                                        accessor.is_normalized);
-    };
-    return {component(0), component(1), component(2)};
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
-    std::vector<Eigen::Vector3d> positions;
-    positions.reserve(source.positions.count);
-    for (std::size_t i = 0; i < source.positions.count; ++i)
-        positions.push_back(position(source.positions, i));
+    const Accessor& from = source.positions;
+    std::vector<Eigen::Vector3d> positions(from.count, Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < from.count; ++i) {
+        const unsigned char* const bytes = element(from, i);
+        for (std::size_t k = 0; bytes && k < 3; ++k)
+            positions[i][k] =
+                from.component->read(bytes + k * from.component->bytes, from.is_normalized);
+    }
     return positions;
 }
 
