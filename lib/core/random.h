@@ -2,6 +2,7 @@
 
 #include <immintrin.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -122,6 +123,21 @@ inline PhiloxKey stream_key(std::uint64_t seed, std::uint32_t sensor, std::uint3
                {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
     return {block.x0, block.x1};
 }
+
+/// Uniform draws, each named by a quantity, which is a value of an enum, and a number.
+template <class Quantity>
+struct Draws {
+    PhiloxKey key;
+
+    /// In [0, 1).
+    double unit(Quantity what, std::uint32_t number = 0) const {
+        const PhiloxBlock block = philox({number, static_cast<std::uint32_t>(what), 0, 0}, key);
+        return unit_double(block.x0, block.x1);
+    }
+    double in(const std::array<double, 2>& range, Quantity what, std::uint32_t number = 0) const {
+        return range[0] + (range[1] - range[0]) * unit(what, number);
+    }
+};
 
 struct NormalPair {
     float first, second;

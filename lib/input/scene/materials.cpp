@@ -145,6 +145,13 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
     return to_materials(parse_csv(text, file_name));
 }
 
+std::uint32_t material_number(Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.materials, name, &Material::name);
+    const auto number = static_cast<std::uint32_t>(found - scene.materials.begin());
+    if (found == scene.materials.end()) scene.materials.emplace_back().name = name;
+    return number;
+}
+
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
                        std::span<const std::string> users) {
     ErrorList errors;

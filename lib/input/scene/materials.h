@@ -32,6 +32,9 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
 /// InputError at `place`, where the mission names a material, if the table lacks it.
 void require_material(const MaterialTable& table, const std::string& name, const Location& place);
 
+/// The index of the material of this name in the scene, which gets it if need be.
+std::uint32_t material_number(Scene& scene, const std::string& name);
+
 /// Gives every new material of the scene its density, sound speed and reflection in `water`.
 /// InputError with a line for each material that the table lacks. `users` names the first user of
 /// each material of the scene for this message; it may be empty.

@@ -59,12 +59,16 @@ std::optional<std::uint32_t> largest_class(const Scene& scene, const SceneObject
     return objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()));
 }
 
+std::optional<std::size_t> class_index(const SceneObjects& objects, const std::string& name) {
+    const auto found = std::ranges::find(objects.classes, name);
+    if (found == objects.classes.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - objects.classes.begin());
+}
+
 /// The index of the class that an entry of labels.`key` names. InputError if there is none.
 std::size_t class_named(const Mission& mission, const SceneObjects& objects, const char* key,
                         const std::string& name) {
-    const auto found = std::ranges::find(objects.classes, name);
-    if (found != objects.classes.end())
-        return static_cast<std::size_t>(found - objects.classes.begin());
+    if (const auto index = class_index(objects, name)) return *index;
     std::vector<std::string> all;
     std::ranges::transform(objects.classes, std::back_inserter(all), printable);
     throw InputError(mission.labels.place,
@@ -139,10 +143,9 @@ void add_new(const std::vector<T>& values, std::vector<T>& all) {
 std::vector<std::string> classes_of(const PossibleObjects& possible,
                                     const std::vector<ClassConfig>& rules) {
     std::vector<std::string> classes;
-    for (const auto& instance : possible.instances) {
-        const auto& [name, own] = instance;
-        const auto rule = std::ranges::find_if(rules, [&](const ClassConfig& one) {
-            return fits_pattern(one.pattern(), instance.first);
+    for (const auto& [name, own] : possible.instances) {
+        const auto rule = std::ranges::find_if(rules, [&, &text = name](const ClassConfig& one) {
+            return fits_pattern(one.pattern(), text);
         });
         classes.push_back(rule != rules.end() ? rule->name
                           : own.empty()       ? without_copy_number(name)
@@ -157,7 +160,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
                                              const SceneObjects& objects) {
     std::vector<std::uint8_t> background(objects.classes.size(), 0);
     for (const std::string& name : mission.labels.background) {
-        const bool is_class = std::ranges::find(objects.classes, name) != objects.classes.end();
+        const bool is_class = class_index(objects, name).has_value();
         if (name == "auto" && !is_class) {
             add_bottom(mission, scene, objects, background);
             if (const auto largest = largest_class(scene, objects)) background[*largest] = 1;
@@ -167,9 +170,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
     }
     for (const ScatterConfig& rule : mission.scene.scatter) {
         for (std::size_t i = 0; rule.unlabelled && i < rule.files.size(); ++i) {
-            const auto found = std::ranges::find(objects.classes, rule.class_of(i));
-            if (found != objects.classes.end())
-                background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
+            if (const auto index = class_index(objects, rule.class_of(i))) background[*index] = 1;
         }
     }
     return background;

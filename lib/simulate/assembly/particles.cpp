@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "input/scene/materials.h"
 #include "simulate/calibrated/equation/target_strength.h"
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/trace/particles.h"
@@ -23,36 +24,21 @@ namespace {
 /// target.
 enum class ParticleDraw : std::uint32_t { size, x, y, z, count };
 
-/// The draws of one group, in [0, 1).
-class GroupDraws {
-  public:
-    GroupDraws(std::uint64_t seed, std::uint32_t group)
-        : key_(stream_key(seed, group, 0, stream_named("particles"))) {}
-
-    double unit(std::uint32_t target, ParticleDraw what) const {
-        const PhiloxBlock block = philox({target, static_cast<std::uint32_t>(what), 0, 0}, key_);
-        return unit_double(block.x0, block.x1);
-    }
-    double in(const std::array<double, 2>& limits, std::uint32_t target, ParticleDraw what) const {
-        return limits[0] + (limits[1] - limits[0]) * unit(target, what);
-    }
-
-  private:
-    PhiloxKey key_;
-};
+/// The draws of one group.
+using GroupDraws = Draws<ParticleDraw>;
 
 std::uint32_t count_of(const ParticlesConfig& config, const GroupDraws& draws) {
     const double choices = config.count[1] - config.count[0] + 1.0;
-    const double more = std::floor(choices * draws.unit(0, ParticleDraw::count));
+    const double more = std::floor(choices * draws.unit(ParticleDraw::count));
     return static_cast<std::uint32_t>(config.count[0] + more);
 }
 
 /// A place in the region, evenly distributed, from its middle in halves of its size. In a ball the
 /// cosine of the angle to z and the cube of the radius are even.
 Eigen::Vector3d place_in(ParticleRegion region, const GroupDraws& draws, std::uint32_t target) {
-    const double x = draws.unit(target, ParticleDraw::x);
-    const double y = draws.unit(target, ParticleDraw::y);
-    const double z = draws.unit(target, ParticleDraw::z);
+    const double x = draws.unit(ParticleDraw::x, target);
+    const double y = draws.unit(ParticleDraw::y, target);
+    const double z = draws.unit(ParticleDraw::z, target);
     if (region == ParticleRegion::box) return {2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0};
     const double up = 2.0 * z - 1.0;
     const double around = std::sqrt(1.0 - up * up);
@@ -65,11 +51,6 @@ Eigen::Vector3d place_in(ParticleRegion region, const GroupDraws& draws, std::ui
 struct DrawnParticle {
     Particle particle;
     double size;  ///< length, radius or target strength, by the kind
-};
-
-struct ParticleGroup {
-    const ParticlesConfig* config;
-    std::vector<DrawnParticle> targets;
 };
 
 std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const GroupDraws& draws) {
@@ -90,7 +71,7 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
             particle.bottom_m = middle.z() - half.z();
             particle.top_m = middle.z() + half.z();
         }
-        out[k].size = draws.in(sizes, k, ParticleDraw::size);
+        out[k].size = draws.in(sizes, ParticleDraw::size, k);
     }
     return out;
 }
@@ -100,13 +81,7 @@ std::uint32_t material_of(ParticleKind kind, Scene& scene) {
     const char* const name = kind == ParticleKind::fish      ? "fish"
                              : kind == ParticleKind::bubbles ? "bubbles"
                                                              : "points";
-    const auto known = std::ranges::find(scene.materials, name, &Material::name);
-    if (known != scene.materials.end())
-        return static_cast<std::uint32_t>(known - scene.materials.begin());
-    Material material;
-    material.name = name;
-    scene.materials.push_back(material);
-    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+    return material_number(scene, name);
 }
 
 std::uint32_t add_instance(const ParticlesConfig& config, const std::string& name, Scene& scene) {
@@ -127,18 +102,18 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
                                        "that begins with it and _; choose another name");
 }
 
-void add_group(ParticleGroup& group, Scene& scene) {
-    const ParticlesConfig& config = *group.config;
+/// Gives the targets of a group their material and instances, which the scene gets.
+void add_group(const ParticlesConfig& config, std::vector<DrawnParticle>& targets, Scene& scene) {
     require_new_name(config, scene);
-    const bool is_single = static_cast<double>(group.targets.size()) < max_single_particles;
+    const bool is_single = static_cast<double>(targets.size()) < max_single_particles;
     const std::uint32_t material = material_of(config.kind, scene);
     std::uint32_t instance = 0;
     if (!is_single) instance = add_instance(config, config.name, scene);
-    for (std::size_t k = 0; k < group.targets.size(); ++k) {
+    for (std::size_t k = 0; k < targets.size(); ++k) {
         if (is_single)
             instance = add_instance(config, config.name + "_" + std::to_string(k + 1), scene);
-        group.targets[k].particle.material = material;
-        group.targets[k].particle.instance = instance;
+        targets[k].particle.material = material;
+        targets[k].particle.instance = instance;
     }
 }
 
@@ -157,27 +132,26 @@ double section_of(const ParticlesConfig& config, const DrawnParticle& drawn, con
 void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& scene,
                    std::span<Sonar> sonars) {
     if (mission.scene.particles.empty()) return;
-    std::vector<ParticleGroup> groups;
-    for (const ParticlesConfig& config : mission.scene.particles) {
-        const GroupDraws draws(mission.seed, static_cast<std::uint32_t>(groups.size()));
-        groups.push_back({&config, draw_group(config, draws)});
-        add_group(groups.back(), scene);
-    }
-    std::vector<double> time_s;
+    Particles none;
     for (const TimedPose& pose : trajectory)
-        time_s.push_back(pose.t_s - trajectory.front().t_s);
-    for (Sonar& sonar : sonars) {
-        Particles particles;
-        particles.time_s = time_s;
-        for (const ParticleGroup& group : groups) {
-            for (const DrawnParticle& drawn : group.targets) {
-                Particle& particle = particles.all.emplace_back(drawn.particle);
-                particle.section_m2 = static_cast<float>(section_of(
-                    *group.config, drawn, mission, sonar.config.instrument.frequency_hz));
+        none.time_s.push_back(pose.t_s - trajectory.front().t_s);
+    std::vector<Particles> of_sonar(sonars.size(), none);
+    std::uint32_t number = 0;
+    for (const ParticlesConfig& config : mission.scene.particles) {
+        const PhiloxKey key = stream_key(mission.seed, number++, 0, stream_named("particles"));
+        std::vector<DrawnParticle> targets = draw_group(config, {key});
+        add_group(config, targets, scene);
+        for (std::size_t s = 0; s < sonars.size(); ++s) {
+            const double frequency_hz = sonars[s].config.instrument.frequency_hz;
+            for (const DrawnParticle& drawn : targets) {
+                Particle& particle = of_sonar[s].all.emplace_back(drawn.particle);
+                particle.section_m2 =
+                    static_cast<float>(section_of(config, drawn, mission, frequency_hz));
             }
         }
-        sonar.settings.particles = std::make_shared<const Particles>(std::move(particles));
     }
+    for (std::size_t s = 0; s < sonars.size(); ++s)
+        sonars[s].settings.particles = std::make_shared<const Particles>(std::move(of_sonar[s]));
 }
 
 }  // namespace sonarsim

@@ -79,42 +79,29 @@ std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
     const CsvTable csv = read_csv(file, largest_file);
     const auto column = [&](const char* name) {
         const auto found = std::ranges::find(csv.header.fields, name);
-        if (found == csv.header.fields.end()) {
-            throw InputError({csv.file, csv.header.line},
+        const Location header{csv.file, csv.header.line};
+        if (found == csv.header.fields.end())
+            throw InputError(header,
                              "a profile of sound speed needs the columns depth_m and "
                              "sound_speed_m_s");
-        }
-        if (std::ranges::count(csv.header.fields, name) > 1) {
-            throw InputError({csv.file, csv.header.line},
+        if (std::ranges::count(csv.header.fields, name) > 1)
+            throw InputError(header,
                              "the column '" + std::string(name) + "' occurs twice; leave one out");
-        }
         return static_cast<std::size_t>(found - csv.header.fields.begin());
     };
     const std::size_t depth = column("depth_m");
     const std::size_t speed = column("sound_speed_m_s");
     std::vector<ProfilePoint> points;
     for (const CsvRow& row : csv.rows) {
-        points.push_back({number_of(csv, row, depth, between(0, 12000)),
-                          number_of(csv, row, speed, sound_speeds_m_s)});
-        const std::size_t n = points.size();
-        if (n > 1 && !(points[n - 1].depth_m > points[n - 2].depth_m)) {
+        const double depth_m = number_of(csv, row, depth, between(0, 12000));
+        const double speed_m_s = number_of(csv, row, speed, sound_speeds_m_s);
+        if (!points.empty() && !(depth_m > points.back().depth_m))
             throw InputError({csv.file, row.line},
                              "depth_m must be greater than in the row before");
-        }
+        points.push_back({depth_m, speed_m_s});
     }
     if (points.empty()) throw InputError({csv.file}, "the profile has no rows");
     return points;
-}
-
-/// InputError for multipath, which requires straight paths of sound.
-void refuse_multipath(const Mission& mission) {
-    for (const SonarConfig& sensor : mission.sensors) {
-        if (sensor.multipath.method == MultipathMethod::none) continue;
-        throw InputError(
-            "sensor '" + sensor.name +
-            "': multipath needs straight paths, and water.profile bends sound; leave out "
-            "one of the two");
-    }
 }
 
 }  // namespace
@@ -135,7 +122,12 @@ SoundProfile sound_profile(const Mission& mission) {
 
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars) {
     if (!mission.water.profile) return;
-    refuse_multipath(mission);
+    for (const SonarConfig& sensor : mission.sensors) {
+        if (sensor.multipath.method == MultipathMethod::none) continue;
+        throw InputError("sensor '" + sensor.name +
+                         "': multipath needs straight paths, and water.profile bends sound; leave "
+                         "out one of the two");
+    }
     scene.sound_profile = std::make_shared<const SoundProfile>(sound_profile(mission));
     for (Sonar& sonar : sonars)
         sonar.sound_profile = scene.sound_profile;

@@ -176,10 +176,7 @@ std::vector<std::pair<std::string, std::uint32_t>> add_materials(const Renaming&
     std::vector<std::pair<std::string, std::uint32_t>> out;
     for (const auto& [key, name] : materials) {
         require_material(table, name, place);
-        const auto found = std::ranges::find(scene.materials, name, &Material::name);
-        out.emplace_back(key, static_cast<std::uint32_t>(found - scene.materials.begin()));
-        if (found != scene.materials.end()) continue;
-        scene.materials.emplace_back().name = name;
+        out.emplace_back(key, material_number(scene, name));
     }
     return out;
 }

@@ -31,35 +31,24 @@ std::pair<std::int64_t, std::int64_t> cell_at(const Eigen::Vector2d& point, doub
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y, share };
 
 /// The draws of one object of one rule.
-class Draws {
-  public:
-    Draws(std::uint64_t seed, std::uint32_t rule, std::uint32_t object)
-        : key_(stream_key(seed, rule, object, Stream::scatter)) {}
+using ObjectDraws = Draws<Draw>;
 
-    double in(const std::array<double, 2>& range, Draw what, std::uint32_t attempt = 0) const {
-        return range[0] + (range[1] - range[0]) * unit(what, attempt);
-    }
-    /// Index of one of `count` equally likely choices.
-    std::size_t one_of(std::size_t count, Draw what) const {
-        const auto chosen = static_cast<std::size_t>(unit(what, 0) * static_cast<double>(count));
-        return std::min(chosen, count - 1);
-    }
+ObjectDraws draws_of(std::uint64_t seed, std::uint32_t rule, std::uint32_t object) {
+    return {stream_key(seed, rule, object, Stream::scatter)};
+}
 
-  private:
-    double unit(Draw what, std::uint32_t attempt) const {
-        const PhiloxBlock block = philox({attempt, static_cast<std::uint32_t>(what), 0, 0}, key_);
-        return unit_double(block.x0, block.x1);
-    }
-
-    PhiloxKey key_;
-};
+/// Index of one of `count` equally likely choices.
+std::size_t one_of(std::size_t count, const ObjectDraws& draws, Draw what) {
+    return std::min(static_cast<std::size_t>(draws.unit(what) * static_cast<double>(count)),
+                    count - 1);
+}
 
 std::size_t count_of(const ScatterConfig& rule, std::uint64_t seed, std::uint32_t rule_index) {
     constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
     const auto min_count = static_cast<std::size_t>(rule.count[0]);
     const auto max_count = static_cast<std::size_t>(rule.count[1]);
-    return min_count +
-           Draws(seed, rule_index, rule_count_key).one_of(max_count - min_count + 1, Draw::count);
+    return min_count + one_of(max_count - min_count + 1, draws_of(seed, rule_index, rule_count_key),
+                              Draw::count);
 }
 
 constexpr int max_tries = 1000;  // positions for each object
@@ -147,9 +136,10 @@ std::optional<Placed> try_at(const Eigen::Vector2d& position, std::size_t chosen
 /// The `number`-th of `count` objects of a rule at the first position with room. `redraw` counts
 /// the draws of scale and burial. Returns nullopt if it lies wholly below the bottom.
 std::optional<Placed> place_one(const ScatterConfig& rule, std::span<const Surface* const> shapes,
-                                const Draws& draws, std::uint32_t redraw, const Bottom& bottom,
-                                const TakenGround& taken, std::size_t number, std::size_t count) {
-    const std::size_t chosen = draws.one_of(shapes.size(), Draw::shape);
+                                const ObjectDraws& draws, std::uint32_t redraw,
+                                const Bottom& bottom, const TakenGround& taken, std::size_t number,
+                                std::size_t count) {
+    const std::size_t chosen = one_of(shapes.size(), draws, Draw::shape);
     const Surface& shape = *shapes[chosen];
     Stance stance{.rotation = rotation_from_rpy(draws.in(in_radians(rule.roll_deg), Draw::roll),
                                                 draws.in(in_radians(rule.pitch_deg), Draw::pitch),
@@ -243,7 +233,7 @@ std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
     const std::size_t count = count_of(rule, seed, rule_index);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {
-        const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
+        const ObjectDraws draws = draws_of(seed, rule_index, static_cast<std::uint32_t>(i));
         std::optional<Placed> placed;
         for (std::uint32_t redraw = 0; redraw < max_redraws && !placed; ++redraw)
             placed = place_one(rule, shapes, draws, redraw, bottom, taken, i, count);
