@@ -126,7 +126,7 @@ inline PhiloxKey stream_key(std::uint64_t seed, std::uint32_t sensor, std::uint3
 
 /// Uniform draws, each named by a quantity, which is a value of an enum, and a number.
 template <class Quantity>
-struct Draws {
+struct NamedDraws {
     PhiloxKey key;
 
     /// In [0, 1).

@@ -25,7 +25,7 @@ namespace {
 enum class ParticleDraw : std::uint32_t { size, x, y, z, count };
 
 /// The draws of one group.
-using GroupDraws = Draws<ParticleDraw>;
+using GroupDraws = NamedDraws<ParticleDraw>;
 
 std::uint32_t count_of(const ParticlesConfig& config, const GroupDraws& draws) {
     const double choices = config.count[1] - config.count[0] + 1.0;

@@ -31,7 +31,7 @@ std::pair<std::int64_t, std::int64_t> cell_at(const Eigen::Vector2d& point, doub
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y, share };
 
 /// The draws of one object of one rule.
-using ObjectDraws = Draws<Draw>;
+using ObjectDraws = NamedDraws<Draw>;
 
 ObjectDraws draws_of(std::uint64_t seed, std::uint32_t rule, std::uint32_t object) {
     return {stream_key(seed, rule, object, Stream::scatter)};
