@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -18,6 +19,10 @@ Eigen::Quaterniond about(const Eigen::Vector3d& axis, double angle) {
 Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw) {
     return about(Eigen::Vector3d::UnitZ(), yaw) * about(Eigen::Vector3d::UnitY(), pitch) *
            about(Eigen::Vector3d::UnitX(), roll);
+}
+
+Eigen::Quaterniond rotation_from_degrees(const std::array<double, 3>& rpy_deg) {
+    return rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2]));
 }
 
 Rpy rpy_from_rotation(const Eigen::Quaterniond& rotation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 namespace sonarsim {
 
@@ -25,6 +26,8 @@ inline Pose operator*(const Pose& T_a_b, const Pose& T_b_c) {
 /// The rotation of roll about x, then pitch about y, then yaw about z, all about fixed axes:
 /// R = Rz(yaw) Ry(pitch) Rx(roll). Radians. With z up, positive pitch turns the bow down.
 Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw);
+/// The same in degrees.
+Eigen::Quaterniond rotation_from_degrees(const std::array<double, 3>& rpy_deg);
 
 /// Radians: roll and yaw in [-pi, pi], pitch in [-pi / 2, pi / 2].
 struct Rpy {

@@ -59,14 +59,12 @@ void add_wave_motion(const MotionConfig& motion, PhiloxKey draws, Trajectory& po
             return deviation > 0.0 ? deviation * sum_at(spectra[movement], pose.t_s - start_s)
                                    : 0.0;
         };
-        Pose wave;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            wave.translation[static_cast<Eigen::Index>(axis)] =
-                moved(axis, motion.position_m[axis]);
-        const double roll = moved(3, radians(motion.turn_deg[0]));
-        const double pitch = moved(4, radians(motion.turn_deg[1]));
-        const double yaw = moved(5, radians(motion.turn_deg[2]));
-        wave.rotation = rotation_from_rpy(roll, pitch, yaw);
+        Eigen::Vector3d shift, rpy;
+        for (int axis = 0; axis < 3; ++axis) {
+            shift[axis] = moved(axis, motion.position_m[axis]);
+            rpy[axis] = moved(3 + axis, radians(motion.turn_deg[axis]));
+        }
+        const Pose wave{rotation_from_rpy(rpy.x(), rpy.y(), rpy.z()), shift};
         pose.T_world_vehicle = pose.T_world_vehicle * wave;
     }
 }

@@ -4,7 +4,6 @@
 
 #include "core/pose.h"
 #include "core/text.h"
-#include "core/units.h"
 #include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 
@@ -28,15 +27,10 @@ PlacedFile file_of(const ObjectConfig& object) {
     return file;
 }
 
-Eigen::Quaterniond attitude_of(const ObjectConfig& object) {
-    return rotation_from_rpy(radians(object.rpy_deg[0]), radians(object.rpy_deg[1]),
-                             radians(object.rpy_deg[2]));
-}
-
 Eigen::Affine3d transform_of(const ObjectConfig& object) {
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     T_world_file.translation() = Eigen::Vector3d(object.position_m.data());
-    T_world_file.linear() = object.scale * attitude_of(object).toRotationMatrix();
+    T_world_file.linear() = object.scale * rotation_from_degrees(object.rpy_deg).toRotationMatrix();
     return T_world_file;
 }
 

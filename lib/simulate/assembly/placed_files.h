@@ -13,8 +13,7 @@ namespace sonarsim {
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
                    const Location& place);
 PlacedFile file_of(const ObjectConfig& object);
-/// The turn and the transform of an object that is not moved to the bottom.
-Eigen::Quaterniond attitude_of(const ObjectConfig& object);
+/// The transform of an object that is not moved to the bottom.
 Eigen::Affine3d transform_of(const ObjectConfig& object);
 /// A heightmap, placed.
 PlacedFile file_of(const HeightmapConfig& map);

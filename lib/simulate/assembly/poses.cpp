@@ -32,9 +32,8 @@ Trajectory form_of(const FileTrajectoryConfig& config) {
 Trajectory form_of(const WaypointTrajectoryConfig& config) {
     std::vector<Waypoint> waypoints;
     for (const WaypointConfig& waypoint : config.waypoints) {
-        const auto& [roll, pitch, yaw] = waypoint.rpy_deg;
-        waypoints.push_back({Eigen::Vector3d(waypoint.position_m.data()),
-                             rotation_from_rpy(radians(roll), radians(pitch), radians(yaw))});
+        waypoints.push_back(
+            {Eigen::Vector3d(waypoint.position_m.data()), rotation_from_degrees(waypoint.rpy_deg)});
     }
     return follow_waypoints(waypoints, config.speed_m_s, config.rate_hz);
 }
@@ -81,10 +80,10 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
 
 /// The motion of a sonar at a pose: the difference of the neighbouring poses over their time
 /// difference.
-PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar& sonar,
+PingMotion motion_at(const Trajectory& trajectory, std::uint32_t pose, const Sonar& sonar,
                      double sound_speed_m_s) {
     const TimedPose& before = trajectory[pose > 0 ? pose - 1 : 0];
-    const TimedPose& after = trajectory[std::min(pose + 1, trajectory.size() - 1)];
+    const TimedPose& after = trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
     const double dt = after.t_s - before.t_s;
     if (!(dt > 0.0)) return {};
     // The poses of the mount, without the turn of the head from ping to ping.
@@ -93,8 +92,7 @@ PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar
     const Eigen::Vector3d turn_world =
         rotation_vector(to.rotation * from.rotation.conjugate()) / dt;
     const Eigen::Quaterniond to_sensor =
-        sensor_pose(sonar, trajectory[pose].T_world_vehicle, static_cast<std::uint32_t>(pose))
-            .rotation.conjugate();
+        sensor_pose(sonar, trajectory[pose].T_world_vehicle, pose).rotation.conjugate();
     return {to_sensor * ((to.translation - from.translation) / dt), to_sensor * turn_world,
             sound_speed_m_s};
 }
@@ -163,12 +161,9 @@ Trajectory moved_vehicle(const Mission& mission, Trajectory poses) {
         const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
         if (off.offset_m == VehicleConfig{}.offset_m && off.turn_deg == VehicleConfig{}.turn_deg)
             continue;
-        const auto& [roll, pitch, yaw] = off.turn_deg;
         Pose& pose = poses[i].T_world_vehicle;
         pose.translation += Eigen::Vector3d(off.offset_m.data());
-        pose.rotation =
-            (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
-                .normalized();
+        pose.rotation = (pose.rotation * rotation_from_degrees(off.turn_deg)).normalized();
     }
     add_wave_motion(mission.vehicle.motion, vehicle_key(mission, "wave motion"), poses);
     require_readable(poses);
@@ -186,29 +181,24 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
     const double sound_speed_m_s = mission.water.sound_speed_m_s;
     for (Sonar& sonar : sonars) {
         if (!sonar.config.moves_in_ping) continue;
-        if (sonar.config.multipath.method != MultipathMethod::none) {
-            throw InputError("sensor '" + sonar.config.name +
-                             "': multipath supports only a sonar at rest during a ping; leave out "
-                             "multipath or moves_in_ping");
-        }
-        if (std::holds_alternative<LookAtTrajectoryConfig>(mission.trajectory)) {
-            throw InputError("sensor '" + sonar.config.name +
-                             "': moves_in_ping takes speeds from successive poses, and those of "
-                             "trajectory.look_at do not follow each other; leave out one");
-        }
-        if (vehicle_varies_by_ping(mission)) {
-            throw InputError(
-                "sensor '" + sonar.config.name +
-                "': moves_in_ping takes speeds from successive poses, and `vary` draws "
-                "a new offset or turn of the vehicle for each; leave out one");
-        }
+        const auto refuse_if = [&](bool is_refused, const char* reason) {
+            if (is_refused) throw InputError("sensor '" + sonar.config.name + "': " + reason);
+        };
+        refuse_if(sonar.config.multipath.method != MultipathMethod::none,
+                  "multipath supports only a sonar at rest during a ping; leave out multipath or "
+                  "moves_in_ping");
+        refuse_if(std::holds_alternative<LookAtTrajectoryConfig>(mission.trajectory),
+                  "moves_in_ping takes speeds from successive poses, and those of "
+                  "trajectory.look_at do not follow each other; leave out one");
+        refuse_if(vehicle_varies_by_ping(mission),
+                  "moves_in_ping takes speeds from successive poses, and `vary` draws a new offset "
+                  "or turn of the vehicle for each; leave out one");
         std::vector<PingMotion> motions;
-        for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
-            motions.push_back(motion_at(
-                trajectory, pose, *SonarAtPose(mission, sonar, static_cast<std::uint32_t>(pose)),
-                sound_speed_m_s));
-        for (PingMotion& motion : motions)
-            motion.measures_direction = sonar.head_angles_rad.empty();
+        for (std::uint32_t pose = 0; pose < trajectory.size(); ++pose) {
+            const SonarAtPose then(mission, sonar, pose);
+            motions.push_back(motion_at(trajectory, pose, *then, sound_speed_m_s));
+            motions.back().measures_direction = sonar.head_angles_rad.empty();
+        }
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
     }
 }

@@ -110,9 +110,9 @@ class LazyBottom {
 Eigen::Affine3d settled_transform(const ObjectConfig& object, const Surface& shape,
                                   const LazyBottom& bottom, double range_m) {
     if (object.place_on != ObjectPlace::on_bottom) return transform_of(object);
-    const auto T_world_file =
-        put_on_bottom(bottom.get(), shape, Eigen::Vector2d(object.position_m.data()),
-                      {attitude_of(object), object.scale, object.align, object.bury_m});
+    const auto T_world_file = put_on_bottom(
+        bottom.get(), shape, Eigen::Vector2d(object.position_m.data()),
+        {rotation_from_degrees(object.rpy_deg), object.scale, object.align, object.bury_m});
     if (T_world_file) return *T_world_file;
     const double length_m = object.scale * box_of(shape).sizes().maxCoeff();
     throw InputError(object.place,

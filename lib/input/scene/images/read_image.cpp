@@ -1,5 +1,7 @@
 #include "input/scene/images/read_image.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,12 +66,6 @@ float* make_room(void* user, const SonarsimImageHead* head) {
     return reading.image.values.data();
 }
 
-/// Keeps the head of an image alone.
-float* make_no_room(void* user, const SonarsimImageHead* head) {
-    static_cast<Reading*>(user)->head = *head;
-    return nullptr;
-}
-
 Reading read_with_module(const std::filesystem::path& path, const std::string& format,
                          const Location& where, SonarsimImageStart start) {
     const auto read = reinterpret_cast<SonarsimReadImage>(
@@ -82,19 +78,13 @@ Reading read_with_module(const std::filesystem::path& path, const std::string& f
     throw InputError(where, "cannot be read: " + printable(error.data()));
 }
 
-/// Reads the pixels and the head of a file.
-Reading read_pixels(const std::filesystem::path& path, const std::string& format,
-                    const Location& where) {
-    Reading reading = read_with_module(path, format, where, &make_room);
-    if (!reading.image.values.empty()) return reading;
-    throw InputError(where,
-                     "has " + std::to_string(reading.head.width) + " x " +
-                         std::to_string(reading.head.height) + " pixels of " +
-                         std::to_string(reading.head.channels) +
-                         (reading.head.channels == 1 ? " value" : " values") +
-                         ", and at most 2^26 values are read, 2^22 of a row; make it coarser with "
-                         "gdal_translate -outsize 50% 50%, or cut a part out with "
-                         "gdal_translate -projwin");
+[[noreturn]] void refuse_size(const SonarsimImageHead& head, const Location& where) {
+    throw InputError(
+        where,
+        fmt::format("has {} x {} pixels of {} value{}, and at most 2^26 values are read, 2^22 "
+                    "of a row; make it coarser with gdal_translate -outsize 50% 50%, or cut "
+                    "a part out with gdal_translate -projwin",
+                    head.width, head.height, head.channels, head.channels == 1 ? "" : "s"));
 }
 
 void set_reference(const SonarsimImageHead& head, const std::filesystem::path& path,
@@ -153,8 +143,9 @@ Image read_image(const std::filesystem::path& path) {
         throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
                                     "; PNG, TIFF and OpenEXR are read");
     }
-    Reading reading = read_pixels(path, format, where);
+    Reading reading = read_with_module(path, format, where, &make_room);
     const SonarsimImageHead& head = reading.head;
+    if (reading.image.values.empty()) refuse_size(head, where);
     Image& image = reading.image;
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
@@ -171,7 +162,11 @@ int epsg_of(const std::filesystem::path& path) {
     require_readable(path, where);
     const std::string format = image_format(first_bytes(path));
     if (format != "tiff") return 0;
-    return static_cast<int>(read_with_module(path, format, where, &make_no_room).head.epsg);
+    const SonarsimImageStart keep_head = [](void* user, const SonarsimImageHead* head) -> float* {
+        static_cast<Reading*>(user)->head = *head;
+        return nullptr;
+    };
+    return static_cast<int>(read_with_module(path, format, where, keep_head).head.epsg);
 }
 
 }  // namespace sonarsim
