@@ -54,8 +54,8 @@ TEST_CASE("beams: noise has the power asked for and the correlation of the apert
     const Beamformer beams(array, sines, false);
     Beamformer::Scratch scratch(beams);
     std::vector<Lanes> out(beams.beams());
-    ElementNoiseOfPing noise = beams.noise_of_ping(
-        {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
+    const std::vector<float> row_sigma(2000, beams.element_sigma_of_unit());
+    ElementNoise noise = beams.noise_of_ping(row_sigma, {1.0F}, {5, 6});
     std::vector<double> powers, neighbours;
     for (int row = 0; row < 2000; row += lanes) {
         beams.form(nullptr, row, &noise, scratch, out.data());

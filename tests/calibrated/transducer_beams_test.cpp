@@ -1,5 +1,3 @@
-#include "simulate/calibrated/beams/transducer_beams.h"
-
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/line_array.h"

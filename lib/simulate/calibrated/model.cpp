@@ -10,9 +10,7 @@
 #include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/beams/beamformer.h"
-#include "simulate/calibrated/beams/transducer_beams.h"
 #include "simulate/calibrated/equation/expected_echo.h"
-#include "simulate/calibrated/equation/instrument_levels.h"
 #include "simulate/calibrated/equation/water.h"
 #include "simulate/calibrated/signal/decibel.h"
 
@@ -189,8 +187,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
             array_beams(beam, sines, range_bins(view), model.wavelength_m, row_noise, noise_filter);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
-        model.beams = std::make_shared<TransducerBeams>(beam, view, model.wavelength_m, row_noise,
-                                                        noise_filter);
+        model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, noise_filter);
     }
     model.limits = point_limits(beam, view, *model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),

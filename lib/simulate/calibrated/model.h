@@ -7,7 +7,7 @@
 
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
-#include "simulate/calibrated/beams/array_beams.h"
+#include "simulate/calibrated/beams/beams.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
 #include "simulate/calibrated/equation/sediment.h"
 #include "simulate/calibrated/equation/sonar_equation.h"

@@ -1,5 +1,3 @@
-#include "simulate/calibrated/beams/array_beams.h"
-
 #include <immintrin.h>
 
 #include <algorithm>
@@ -9,6 +7,8 @@
 
 #include "core/lanes.h"
 #include "core/units.h"
+#include "simulate/calibrated/beams/beamformer.h"
+#include "simulate/calibrated/beams/beams.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
 #include "simulate/trace/arrivals.h"
 
@@ -116,7 +116,7 @@ void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float>
     }
 }
 
-void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPing* noise,
+void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoise* noise,
                 std::span<const float> row_gain, std::span<float> image, bool add) {
     Beamformer::Scratch scratch(former);
     std::vector<Lanes> beams(former.beams());
@@ -126,6 +126,100 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
     }
 }
 
+/// See array_beams().
+class ArrayBeams final : public Beams {
+  public:
+    ArrayBeams(const LineArray& array, const BeamSines& sines, const ElementsConfig& errors,
+               std::span<const double> phases, std::span<const double> noise,
+               const std::vector<float>& taps)
+        : amplitudes_(array, sines.middles, false, errors, phases),
+          powers_(array, sines.middles, true, errors, phases),
+          noise_taps_(taps) {
+        cones = ConeBeams(sines.edges);
+        for (const double power : noise) {
+            row_sigma_.push_back(static_cast<float>(std::sqrt(power)) *
+                                 amplitudes_.element_sigma_of_unit());
+        }
+    }
+
+    int columns() const override { return sines()->columns; }
+    const SineGrid* sines() const override { return &amplitudes_.grid(); }
+    float scalloping_gain() const override { return amplitudes_.scalloping_gain(); }
+
+    std::uint64_t find_columns(const PatchBlock& pieces, PointEchoes& echoes) const override {
+        const SineGrid& grid = *sines();
+        const auto per_step = static_cast<float>(1.0 / grid.step);
+        const auto first_sine = static_cast<float>(grid.first);
+        const auto last_column = static_cast<float>(grid.columns - 1);
+        int outside = 0;
+        for (int k = 0; k < echoes.count; ++k) {
+            const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
+            const float column = (sine - first_sine) * per_step;
+            const bool inside = column >= 0.0F && column < last_column;
+            outside += echoes.power[k] > 0.0F && !inside ? 1 : 0;
+            echoes.power[k] = inside ? echoes.power[k] : 0.0F;
+            echoes.column[k] = inside ? column : 0.0F;
+        }
+        return outside;
+    }
+
+    void deposit(const PatchBlock& /*pieces*/, const PointEchoes& echoes,
+                 const Amplitudes* amplitudes, EchoGrid& grid, EchoGrid* mean) const override {
+        const GridPlaces places(echoes, grid);
+        const auto add = [&](EchoGrid& to, auto value_of_echo) {
+            float* const first = to.column(0);
+            const std::size_t stride = to.stride();
+            for (int k = 0; k < echoes.count; ++k)
+                places.add_shared(k, value_of_echo(k), first, stride);
+        };
+        const auto power = [&](int k) { return alternating(echoes.power[k], 0.0F); };
+        if (mean) add(*mean, power);
+        if (!amplitudes) return add(grid, power);
+        add(grid, [&](int k) { return alternating(amplitudes->re[k], amplitudes->im[k]); });
+    }
+
+    void deposit_paths(const PathEndpoint& /*out*/, const PathEndpoint& back,
+                       EchoGrid& grid) const override {
+        deposit(back.places, back.echoes, nullptr, grid, nullptr);
+    }
+
+    void find_received(const PatchBlock& pieces, const PointEchoes& echoes,
+                       const PathEndpoint* /*out*/,
+                       std::vector<ReceivedPiece>& received) const override {
+        for (int k = 0; k < pieces.count; ++k) {
+            const float power = echoes.power[k];
+            if (!(power > 0.0F)) continue;
+            const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
+            const float low = sine - pieces.half_sine[k];
+            const float high = sine + pieces.half_sine[k];
+            const auto add = [&](int beam, float share) {
+                received.push_back({beam, k, share * power});
+            };
+            if (high > low)
+                cones.for_each(low, high, add);
+            else if (const int beam = cones.beam(sine); beam >= 0)
+                add(beam, 1.0F);
+        }
+    }
+
+    void form(const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image) const override {
+        if (powers) form_beams(powers_, &grid, nullptr, row_gain, image, false);
+        const EchoGrid* const amplitudes = powers ? nullptr : &grid;
+        if (noisy) {
+            ElementNoise noise = amplitudes_.noise_of_ping(row_sigma_, noise_taps_, key);
+            form_beams(amplitudes_, amplitudes, &noise, row_gain, image, powers);
+        } else if (amplitudes) {
+            form_beams(amplitudes_, amplitudes, nullptr, row_gain, image, powers);
+        }
+    }
+
+  private:
+    Beamformer amplitudes_, powers_;
+    std::vector<float> row_sigma_;   ///< [range bins, to a multiple of 8] of the elements' noise
+    std::vector<float> noise_taps_;  ///< its filter along range
+};
+
 }  // namespace
 
 std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
@@ -133,84 +227,9 @@ std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines
                                          std::span<const double> noise,
                                          const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
-    const std::vector<double> phases = defocus(array, beam.focus_m, wavelength_m, sines, bins);
-    Beamformer amplitudes(array, sines.middles, false, beam.elements, phases);
-    ElementNoise element_noise;
-    for (const double power : noise) {
-        element_noise.row_sigma.push_back(static_cast<float>(std::sqrt(power)) *
-                                          amplitudes.element_sigma_of_unit());
-    }
-    element_noise.taps = taps;
-    auto out = std::make_shared<ArrayBeams>(
-        std::move(amplitudes), Beamformer(array, sines.middles, true, beam.elements, phases),
-        std::move(element_noise));
-    out->cones = ConeBeams(sines.edges);
-    return out;
-}
-
-std::uint64_t ArrayBeams::find_columns(const PatchBlock& pieces, PointEchoes& echoes) const {
-    const SineGrid& grid = *sines();
-    const auto per_step = static_cast<float>(1.0 / grid.step);
-    const auto first_sine = static_cast<float>(grid.first);
-    const auto last_column = static_cast<float>(grid.columns - 1);
-    int outside = 0;
-    for (int k = 0; k < echoes.count; ++k) {
-        const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
-        const float column = (sine - first_sine) * per_step;
-        const bool inside = column >= 0.0F && column < last_column;
-        outside += echoes.power[k] > 0.0F && !inside ? 1 : 0;
-        echoes.power[k] = inside ? echoes.power[k] : 0.0F;
-        echoes.column[k] = inside ? column : 0.0F;
-    }
-    return outside;
-}
-
-void ArrayBeams::deposit(const PatchBlock& /*pieces*/, const PointEchoes& echoes,
-                         const Amplitudes* amplitudes, EchoGrid& grid, EchoGrid* mean) const {
-    const GridPlaces places(echoes, grid);
-    const auto add_powers = [&](EchoGrid& to) {
-        float* const first = to.column(0);
-        const std::size_t stride = to.stride();
-        for (int k = 0; k < echoes.count; ++k)
-            places.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
-    };
-    if (mean) add_powers(*mean);
-    if (!amplitudes) return add_powers(grid);
-    float* const first = grid.column(0);
-    const std::size_t stride = grid.stride();
-    for (int k = 0; k < echoes.count; ++k)
-        places.add_shared(k, alternating(amplitudes->re[k], amplitudes->im[k]), first, stride);
-}
-
-void ArrayBeams::find_received(const PatchBlock& pieces, const PointEchoes& echoes,
-                               const PathEndpoint* /*out*/,
-                               std::vector<ReceivedPiece>& received) const {
-    for (int k = 0; k < pieces.count; ++k) {
-        const float power = echoes.power[k];
-        if (!(power > 0.0F)) continue;
-        const float sine = piece_sine(pieces.y[k], echoes.range_m[k]);
-        const float low = sine - pieces.half_sine[k];
-        const float high = sine + pieces.half_sine[k];
-        const auto add = [&](int beam, float share) {
-            received.push_back({beam, k, share * power});
-        };
-        if (high > low)
-            cones.for_each(low, high, add);
-        else if (const int beam = cones.beam(sine); beam >= 0)
-            add(beam, 1.0F);
-    }
-}
-
-void ArrayBeams::form(const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
-                      std::span<const float> row_gain, std::span<float> image) const {
-    if (powers) form_beams(powers_, &grid, nullptr, row_gain, image, false);
-    const EchoGrid* const amplitudes = powers ? nullptr : &grid;
-    if (noisy) {
-        ElementNoiseOfPing noise = amplitudes_.noise_of_ping(noise_, key);
-        form_beams(amplitudes_, amplitudes, &noise, row_gain, image, powers);
-    } else if (amplitudes) {
-        form_beams(amplitudes_, amplitudes, nullptr, row_gain, image, powers);
-    }
+    return std::make_shared<ArrayBeams>(array, sines, beam.elements,
+                                        defocus(array, beam.focus_m, wavelength_m, sines, bins),
+                                        noise, taps);
 }
 
 }  // namespace sonarsim

@@ -130,13 +130,6 @@ ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int co
     return sum;
 }
 
-Lanes not_negative(const Lanes& values) {
-    Lanes out;
-    for (int lane = 0; lane < lanes; ++lane)
-        out[lane] = std::max(values[lane], 0.0F);
-    return out;
-}
-
 }  // namespace
 
 SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines) {
@@ -240,23 +233,20 @@ void Beamformer::find_taps(const std::vector<double>& beam_sines) {
     }
 }
 
-Beamformer::Scratch::Scratch(const Beamformer& beams)
-    : data(beams.fourier_.size()), spare(beams.fourier_.size()) {}
-
-ElementNoiseOfPing Beamformer::noise_of_ping(const ElementNoise& levels, PhiloxKey key) const {
+ElementNoise Beamformer::noise_of_ping(std::span<const float> row_sigma,
+                                       const std::vector<float>& taps, PhiloxKey key) const {
     // One counter serves two elements.
-    const int pairs = (elements() + 1) / 2;
-    const NoiseChannels channels{.firsts = pairs, .seconds = elements() - pairs};
-    return {.levels = levels, .drawn = FilteredNoise(channels, levels.taps, key)};
+    const int pairs = (elements_ + 1) / 2;
+    const NoiseChannels channels{.firsts = pairs, .seconds = elements_ - pairs};
+    return {.row_sigma = row_sigma, .drawn = FilteredNoise(channels, taps, key)};
 }
 
 /// Adds the noise of the bins `row` to `row` + 7.
-void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const {
+void Beamformer::add_noise(ElementNoise& noise, int row, Scratch& scratch) const {
     noise.drawn.go_to(row);
-    const float* const row_sigma = noise.levels.row_sigma.data() + row;
-    const int elements = this->elements();
+    const float* const row_sigma = noise.row_sigma.data() + row;
     const std::span<const Weight> weights = weights_at(row);
-    for (int e = 0; e < elements; ++e) {
+    for (int e = 0; e < elements_; ++e) {
         const ComplexLanes drawn = noise.drawn.of(e);
         ComplexLanes z = scratch.data[weights[e].index];
         const float scale = weights[e].noise_scale;
@@ -269,7 +259,7 @@ void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch)
     }
 }
 
-void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+void Beamformer::form(const EchoGrid* grid, int row, ElementNoise* noise, Scratch& scratch,
                       Lanes* out) const {
     ComplexLanes* const data = scratch.data.data();
     const int size = fourier_.size();
@@ -303,10 +293,10 @@ void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, 
         const ComplexLanes* const from = data + first_tap_[j];
         const float* const tap = tap_.data() + static_cast<std::ptrdiff_t>(j) * taps_;
         ComplexLanes z = taps_ == 1 ? from[0] : interpolated(from, tap, taps_);
-        Lanes power;
-        for (int lane = 0; lane < lanes; ++lane)
-            power[lane] = std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
-        out[j] = powers_ ? not_negative(z.re) : power;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float power = std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
+            out[j][lane] = powers_ ? std::max(z.re[lane], 0.0F) : power;
+        }
     }
 }
 

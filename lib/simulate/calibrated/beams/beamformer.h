@@ -12,16 +12,10 @@
 
 namespace sonarsim {
 
-/// Noise of the receiver, before its beams are formed.
+/// The receiver's noise in a ping, before its beams are formed.
 struct ElementNoise {
     /// [range bins, to a multiple of 8] real and imaginary part each, per element.
-    std::vector<float> row_sigma;
-    std::vector<float> taps{1.0F};  ///< the filter along range, by noise_taps()
-};
-
-/// The noise of one ping at the elements.
-struct ElementNoiseOfPing {
-    ElementNoise levels;
+    std::span<const float> row_sigma;
     FilteredNoise drawn;
 };
 
@@ -39,20 +33,22 @@ class Beamformer {
 
     const SineGrid& grid() const { return grid_; }
     int beams() const { return static_cast<int>(first_tap_.size()); }
-    int elements() const { return elements_; }
     /// Scalloping correction: mean power over positions between two columns / power in a column.
     float scalloping_gain() const { return scalloping_gain_; }
     /// The sigma of the elements for a noise of power 1 in a beam.
     float element_sigma_of_unit() const { return unit_sigma_; }
 
     struct Scratch {
-        explicit Scratch(const Beamformer& beams);
+        explicit Scratch(const Beamformer& beams)
+            : data(beams.fourier_.size()), spare(beams.fourier_.size()) {}
         std::vector<ComplexLanes> data, spare;
     };
-    ElementNoiseOfPing noise_of_ping(const ElementNoise& levels, PhiloxKey key) const;
+    /// `taps`: the filter along range, by noise_taps().
+    ElementNoise noise_of_ping(std::span<const float> row_sigma, const std::vector<float>& taps,
+                               PhiloxKey key) const;
     /// Forms the beams of 8 bins from `row` on: `out` [beams][8], the power of each. Without a grid
     /// there are no echoes. `noise` may be null.
-    void form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, Scratch& scratch,
+    void form(const EchoGrid* grid, int row, ElementNoise* noise, Scratch& scratch,
               Lanes* out) const;
 
   private:
@@ -66,7 +62,7 @@ class Beamformer {
 
     void add_weights(const LineArray& array, double samples, const ElementsConfig& element_errors);
     void find_taps(const std::vector<double>& beam_sines);
-    void add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const;
+    void add_noise(ElementNoise& noise, int row, Scratch& scratch) const;
     std::span<const Weight> weights_at(int row) const {
         const std::size_t first = std::size_t{1} * (row / lanes) * elements_;
         return {weights_.data() + (first < weights_.size() ? first : 0),

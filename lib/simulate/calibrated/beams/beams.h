@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/random.h"
+#include "input/mission/instrument.h"
 #include "simulate/calibrated/equation/sonar_equation.h"
 #include "simulate/calibrated/signal/echo_grid.h"
 #include "simulate/trace/cone_beams.h"
+#include "simulate/trace/range_boxes.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
@@ -65,5 +68,27 @@ class Beams {
     virtual void form(const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
                       std::span<const float> row_gain, std::span<float> image) const = 0;
 };
+
+/// The sines of the azimuths of a fan's beams, and of the edges between them.
+struct BeamSines {
+    std::vector<double> middles, edges;  ///< the edges are one more
+};
+
+/// The beams that a line array forms. They have the far-field pattern at every range or, with
+/// BeamConfig::focus_m, at that one: at others they are wider. A beam receives echoes in its cone;
+/// powers are shared between the four cells of the grid around each echo. `noise`: [range bins, to
+/// a multiple of 8] the noise power in a beam. `taps`: the noise's filter along range.
+std::shared_ptr<const Beams> array_beams(const BeamConfig& beam, const BeamSines& sines,
+                                         const RangeBins& bins, double wavelength_m,
+                                         std::span<const double> noise,
+                                         const std::vector<float>& taps);
+
+/// Transducers that both transmit and receive, and form no beams: the two sides of a side-scan
+/// sonar, the disc of an echosounder, the head of a scanning sonar. A side receives the echoes of
+/// all surface, weighted by its pattern, and over two surfaces only the sound that it has
+/// transmitted; powers are shared between two bins. `noise` and `taps` as above.
+std::shared_ptr<const Beams> transducer_beams(const BeamConfig& beam, const View& view,
+                                              double wavelength_m, std::span<const double> noise,
+                                              const std::vector<float>& taps);
 
 }  // namespace sonarsim
