@@ -27,6 +27,9 @@ struct Sonar {
     std::shared_ptr<const SoundProfile> sound_profile;
     /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
+
+    /// The range of the middle of a bin.
+    double middle_m(int bin) const { return 0.5 * (range_edges_m[bin] + range_edges_m[bin + 1]); }
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

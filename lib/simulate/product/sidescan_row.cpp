@@ -8,20 +8,8 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int starboard = 0;  // the beams of a side-scan ping
-constexpr int port = 1;
-
 double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
-}
-
-std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam) {
-    std::vector<float> column(ping.range_bins);
-    for (int i = 0; i < ping.range_bins; ++i)
-        column[i] = ping.at(i, beam);
-    const std::optional<int> bin = first_return_of_swath(column);
-    if (!bin) return std::nullopt;
-    return 0.5 * (sonar.range_edges_m[*bin] + sonar.range_edges_m[*bin + 1]);
 }
 
 }  // namespace
@@ -43,14 +31,19 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
     std::vector<std::int32_t> bins(waterfall_columns(config), -1);
     const int nadir = static_cast<int>(bins.size() / 2);  // the first column to starboard of it
     for (int i = 0; i < config.range_bins; ++i) {
-        bins[nadir - 1 - before - i] = 2 * i + port;
-        bins[nadir + before + i] = 2 * i + starboard;
+        bins[nadir - 1 - before - i] = 2 * i + Side::port;
+        bins[nadir + before + i] = 2 * i + Side::starboard;
     }
     return bins;
 }
 
-FirstReturns first_returns(const Sonar& sonar, const Ping& ping) {
-    return {first_return_m(sonar, ping, port), first_return_m(sonar, ping, starboard)};
+std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam) {
+    std::vector<float> column(ping.range_bins);
+    for (int i = 0; i < ping.range_bins; ++i)
+        column[i] = ping.at(i, beam);
+    const std::optional<int> bin = first_return_of_swath(column);
+    if (!bin) return std::nullopt;
+    return sonar.middle_m(*bin);
 }
 
 }  // namespace sonarsim

@@ -13,6 +13,11 @@ namespace sonarsim {
 // in columns as wide as a range bin. It has blank columns between nadir and range_min, where the
 // sonar does not listen, so that slant range is linear in the column on both sides.
 
+/// The beams of a side-scan ping.
+struct Side {
+    static constexpr int starboard = 0, port = 1;
+};
+
 /// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
@@ -27,12 +32,8 @@ int waterfall_columns(const SonarConfig& config);
 /// where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
-/// Slant range of the first bottom return on each side, m: the middle of its bin
+/// Slant range of the first bottom return in a beam, m: the middle of its bin
 /// (first_return_of_swath()). Nothing if the side is dark.
-struct FirstReturns {
-    std::optional<double> port_m;
-    std::optional<double> starboard_m;
-};
-FirstReturns first_returns(const Sonar& sonar, const Ping& ping);
+std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam);
 
 }  // namespace sonarsim

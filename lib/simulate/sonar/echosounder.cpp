@@ -1,8 +1,72 @@
-#include "simulate/product/echogram.h"
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "simulate/product/bottom.h"
+#include "simulate/product/contrast.h"
+#include "simulate/product/picture.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/setup.h"
 
 namespace sonarsim {
+
+namespace {
+
+// The echogram as an operator sees it: a depth axis on the left, then a column per ping, the
+// nearest range on top. Each bin is a rectangle of pixels, so that short missions are legible.
+
+constexpr int min_width = 600;  // px; met by a whole number of pixels per ping
+constexpr int min_height = 400;
+constexpr Rgb echo_colours[] = {{8, 10, 40},    {20, 50, 130},  {20, 120, 190}, {60, 190, 150},
+                                {230, 220, 80}, {240, 130, 40}, {190, 20, 30}};
+
+int pixels_per_bin(int min_pixels, int bins) {
+    return std::max(1, (min_pixels + bins - 1) / std::max(1, bins));
+}
+
+StripFrame echogram_frame(const SonarConfig& config, int pings) {
+    StripFrame frame;
+    frame.axis_width = text_width("1000.0 m") + 12;
+    frame.ping_px = pixels_per_bin(min_width, pings);
+    frame.bin_px = pixels_per_bin(min_height, config.range_bins);
+    frame.width = frame.axis_width + pings * frame.ping_px;
+    frame.height = config.range_bins * frame.bin_px;
+    return frame;
+}
+
+/// The depth axis, metres.
+Picture echogram_axis(const SonarConfig& config, const StripFrame& frame) {
+    Picture axis(frame.axis_width, frame.height, backdrop);
+    const int right = frame.axis_width - 1;
+    fill(axis, right, 0, 1, frame.height, ink);
+    const double pixels_per_m = frame.height / (config.range_max_m - config.range_min_m);
+    for (const double depth : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
+        const int y = static_cast<int>(std::floor((depth - config.range_min_m) * pixels_per_m));
+        fill(axis, right - 5, std::min(y, frame.height - 1), 5, 1, ink);
+        const int top = std::clamp(y - 3, 0, std::max(0, frame.height - 7));
+        write(axis, right - 8, top, number_text(depth) + " m", Align::right, ink);
+    }
+    return axis;
+}
+
+/// A range bin over all pings.
+void echogram_row(std::span<const float> bins, double white, const StripFrame& frame,
+                  std::span<Rgb> pixels) {
+    const auto full = static_cast<float>(white);
+    for (std::size_t k = 0; k < bins.size(); ++k) {
+        const Rgb colour = blend(echo_colours, shade(bins[k], full));
+        std::fill_n(pixels.begin() + static_cast<std::ptrdiff_t>(k) * frame.ping_px, frame.ping_px,
+                    colour);
+    }
+}
+
+/// The slant range of the bottom's leading edge, the middle of its bin; null when the ping is dark.
+void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
+    const std::optional<int> bin = first_return(view.ping.intensity);
+    json["depth_m"] = bin ? nlohmann::ordered_json(view.sonar.middle_m(*bin)) : nullptr;
+}
+
+}  // namespace
 
 /// An echosounder (section VI): one beam, a cone of half-angle opening / 2. Its range noise does
 /// not fade. Looks down.
@@ -25,11 +89,8 @@ KindOfSonar echosounder_kind() {
             .record = {.name = "echogram",
                        .upright = true,
                        .pictures = RecordPictures::strip,
-                       .style = echogram_style},
-            // The range at which the bottom is detected.
-            .measure = [](const PingView& view, nlohmann::ordered_json& json) {
-                json["depth_m"] = number_or_null(detected_depth(view.sonar, view.ping));
-            }};
+                       .style = {echogram_frame, echogram_axis, echogram_row}},
+            .measure = measure_depth};
 }
 
 }  // namespace sonarsim

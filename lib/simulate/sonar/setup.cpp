@@ -79,8 +79,7 @@ std::vector<float> growth_with_range(const Sonar& sonar) {
     const SonarConfig& config = sonar.config;
     std::vector<float> growth(config.range_bins, 1.0F);
     for (int i = 0; config.noise.scale_with_range && i < config.range_bins; ++i) {
-        const double middle = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        const double r = middle / config.range_max_m;
+        const double r = sonar.middle_m(i) / config.range_max_m;
         growth[i] = static_cast<float>(r * r);
     }
     return growth;

@@ -61,9 +61,10 @@ void waterfall_row(std::span<const float> row, double white, const StripFrame& /
 
 /// The range of the first bottom return on either side.
 void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
-    const FirstReturns first = first_returns(view.sonar, view.ping);
-    json["first_return_m"] = {{"port", number_or_null(first.port_m)},
-                              {"starboard", number_or_null(first.starboard_m)}};
+    const auto first = [&](int side) {
+        return number_or_null(first_return_m(view.sonar, view.ping, side));
+    };
+    json["first_return_m"] = {{"port", first(Side::port)}, {"starboard", first(Side::starboard)}};
 }
 
 void describe_waterfall(const Sonar& sonar, nlohmann::ordered_json& sensor) {
