@@ -1,4 +1,4 @@
-#include "simulate/product/fan_bins.h"
+#include "simulate/product/fan.h"
 
 #include "simulate/product/fan.h"
 #include "support/sonars.h"

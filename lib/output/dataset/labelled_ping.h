@@ -8,7 +8,7 @@
 #include "simulate/assembly/assemble.h"
 #include "simulate/labels/labels.h"
 #include "simulate/ping/sonar.h"
-#include "simulate/product/fan_bins.h"
+#include "simulate/product/fan.h"
 #include "simulate/product/object_masks.h"
 #include "simulate/product/object_table.h"
 

@@ -13,7 +13,7 @@
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/surface.h"
-#include "simulate/product/fan_bins.h"
+#include "simulate/product/fan.h"
 #include "simulate/visibility/caster.h"
 
 namespace sonarsim {

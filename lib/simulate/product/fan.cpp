@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -84,6 +83,11 @@ std::vector<FanPlace> places_of_row(const View& view, const FanFrame& frame, int
     return places;
 }
 
+/// The range bins from the nearest range to a place.
+double bins_to(const View& view, const FanPlace& place) {
+    return (place.range_m - view.range_min_m) / view.bin_m();
+}
+
 /// The ring of pixels that are `extent` beams wide; ring 0 holds those of up to one beam.
 std::size_t ring_of(double extent) {
     std::size_t ring = 0;
@@ -116,6 +120,15 @@ void add_pixel(FanMap::Ring& ring, const FanMap::Pixel& pixel, int index, int co
     const bool goes_on =
         !ring.runs.empty() && ring.runs.back().index + ring.runs.back().count == index;
     goes_on ? void(++ring.runs.back().count) : ring.runs.push_back({index, 1});
+}
+
+/// The bin of a place; -1 outside the sector.
+std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPlace& place) {
+    if (!is_inside_sector(view, place)) return -1;
+    // A point on the last edge, exactly or by rounding, belongs to the bin before it.
+    const int i = std::clamp(static_cast<int>(bins_to(view, place)), 0, view.range_bins - 1);
+    const int j = std::clamp(static_cast<int>(column_at(place.azimuth_rad)), 0, view.beams - 1);
+    return j * view.range_bins + i;
 }
 
 }  // namespace
@@ -208,7 +221,7 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
                                     : (is_inside_sector(view, place) ? cover_points : 0);
             if (covered == 0) continue;
             // The centre of a pixel on the edge may lie outside the sector.
-            const double bins = (place.range_m - view.range_min_m) / view.bin_m();
+            const double bins = bins_to(view, place);
             const double beams = column_at(place.azimuth_rad);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
             add_pixel(ring,
@@ -219,6 +232,34 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
         }
     }
     return map;
+}
+
+FanBins make_fan_bins(const Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    const ColumnFinder column_at(sonar);
+    FanBins fan;
+    fan.frame = fan_frame(sonar);
+    const auto width = static_cast<std::size_t>(fan.frame.width);
+    const auto height = static_cast<std::size_t>(fan.frame.height);
+    fan.by_row.resize(width * height);
+    fan.by_column.resize(width * height);
+    fan.boxes.resize(static_cast<std::size_t>(view.beams) * view.range_bins);
+    for (std::size_t row = 0; row < height; ++row) {
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::int32_t bin =
+                bin_at(view, column_at,
+                       fan_place(fan.frame, view.range_max_m, static_cast<double>(column),
+                                 static_cast<double>(row)));
+            fan.by_row[row * width + column] = bin;
+            fan.by_column[column * height + row] = bin;
+            if (bin < 0) continue;
+            PixelBox& box = fan.boxes[static_cast<std::size_t>(bin)];
+            const auto x = static_cast<int>(column);
+            const auto y = static_cast<int>(row);
+            box = joined(box, {x, x + 1, y, y + 1});
+        }
+    }
+    return fan;
 }
 
 }  // namespace sonarsim

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "output/dataset/writer.h"
-#include "simulate/product/fan_bins.h"
+#include "simulate/product/fan.h"
 
 namespace sonarsim {
 

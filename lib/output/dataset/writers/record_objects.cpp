@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writers/object_records.h"
-#include "simulate/product/fan_bins.h"
+#include "simulate/product/fan.h"
 #include "simulate/product/scan.h"
 #include "simulate/product/sidescan_row.h"
 
