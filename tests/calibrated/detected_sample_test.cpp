@@ -1,4 +1,4 @@
-#include "simulate/calibrated/receiver/detected_sample.h"
+#include "simulate/calibrated/receiver/receiver_chain.h"
 
 #include "support/statistics.h"
 

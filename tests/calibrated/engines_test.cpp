@@ -1,4 +1,3 @@
-#include "simulate/reference/energy_reference.h"
 #include "simulate/reference/reference.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"

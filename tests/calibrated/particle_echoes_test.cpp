@@ -1,5 +1,5 @@
 #include "calibrated/water_fixtures.h"
-#include "simulate/calibrated/form_look.h"
+#include "simulate/calibrated/model.h"
 #include "support/labelled.h"
 #include "support/patches.h"
 

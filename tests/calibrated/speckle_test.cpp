@@ -1,5 +1,5 @@
 #include "calibrated/preset_fixtures.h"
-#include "simulate/calibrated/speckle/scatterer_search.h"
+#include "simulate/calibrated/speckle/scatterers.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

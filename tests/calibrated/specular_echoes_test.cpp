@@ -2,7 +2,7 @@
 
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

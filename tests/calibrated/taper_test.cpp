@@ -1,6 +1,6 @@
 #include "simulate/trace/taper.h"
 
-#include "simulate/calibrated/speckle/scatterer_search.h"
+#include "simulate/calibrated/speckle/scatterers.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

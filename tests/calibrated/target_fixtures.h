@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simulate/calibrated/signal/decibel.h"
-#include "simulate/ping/form_image.h"
+#include "simulate/ping/sonar.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

@@ -1,7 +1,6 @@
 // Sound that goes through thin walls.
 
 #include "simulate/calibrated/equation/bottom.h"
-#include "simulate/reference/energy_reference.h"
 #include "simulate/reference/reference.h"
 #include "support/calibrated.h"
 #include "support/draws.h"

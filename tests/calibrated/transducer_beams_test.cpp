@@ -1,7 +1,6 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/line_array.h"
-#include "simulate/calibrated/signal/near_field.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/test.h"
 

@@ -2,7 +2,6 @@
 
 #include "calibrated/water_fixtures.h"
 #include "input/mission/mission.h"
-#include "simulate/calibrated/equation/target_strength.h"
 #include "simulate/calibrated/equation/water.h"
 #include "support/statistics.h"
 

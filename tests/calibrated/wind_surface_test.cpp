@@ -1,4 +1,4 @@
-#include "simulate/calibrated/equation/wind_surface.h"
+#include "simulate/calibrated/equation/bottom.h"
 
 #include "calibrated/water_fixtures.h"
 

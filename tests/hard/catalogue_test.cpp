@@ -3,7 +3,7 @@
 #include "simulate/paper/echoes.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 
 using namespace sonarsim;

@@ -1,7 +1,7 @@
 #include "hard/cases.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
 namespace sonarsim {

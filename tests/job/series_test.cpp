@@ -5,7 +5,7 @@
 #include "output/dataset/writer.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 #include "support/npy_data.h"
 
 namespace sonarsim {

@@ -1,5 +1,5 @@
 #include "simulate/product/contrast.h"
-#include "simulate/product/object_masks.h"
+#include "simulate/product/object_table.h"
 #include "simulate/product/picture.h"
 #include "support/test.h"
 

@@ -1,7 +1,6 @@
 #include "simulate/reference/reference.h"
 
 #include "core/random.h"
-#include "simulate/reference/energy_reference.h"
 #include "simulate/reference/reference_cast.h"
 #include "support/calibrated.h"
 

@@ -1,6 +1,6 @@
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 

@@ -1,6 +1,6 @@
 #include "simulate/trace/multipath.h"
 
-#include "simulate/paper/multipath_echoes.h"
+#include "simulate/paper/echoes.h"
 #include "simulate/sonar/sonar.h"
 #include "support/bounces.h"
 #include "support/patches.h"

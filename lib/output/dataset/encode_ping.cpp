@@ -8,7 +8,7 @@
 
 #include "core/clock.h"
 #include "simulate/ping/sonar.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

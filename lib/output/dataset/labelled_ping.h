@@ -9,7 +9,6 @@
 #include "simulate/labels/labels.h"
 #include "simulate/ping/sonar.h"
 #include "simulate/product/fan.h"
-#include "simulate/product/object_masks.h"
 #include "simulate/product/object_table.h"
 
 namespace sonarsim {

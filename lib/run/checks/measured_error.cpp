@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/render_at_pose.h"
-#include "simulate/reference/energy_reference.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {

@@ -9,7 +9,6 @@
 #include "input/scene/mesh_topology.h"
 #include "run/checks/directions.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"

@@ -12,7 +12,6 @@
 #include "run/preview/sonar_panel.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 

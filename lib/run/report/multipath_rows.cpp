@@ -4,7 +4,7 @@
 #include "run/report/report.h"
 #include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

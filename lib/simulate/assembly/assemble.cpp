@@ -20,7 +20,6 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
-#include "simulate/sonar/setup.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {

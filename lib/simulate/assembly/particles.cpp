@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "core/text.h"
 #include "input/scene/materials.h"
-#include "simulate/calibrated/equation/target_strength.h"
+#include "simulate/calibrated/equation/water.h"
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/trace/particles.h"
 

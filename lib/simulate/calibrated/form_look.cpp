@@ -1,5 +1,3 @@
-#include "simulate/calibrated/form_look.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,14 +6,11 @@
 #include <vector>
 
 #include "core/elementary.h"
-#include "simulate/calibrated/equation/piece_strengths.h"
 #include "simulate/calibrated/equation/specular_echoes.h"
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/calibrated/receiver/receiver_chain.h"
-#include "simulate/calibrated/speckle/scatterer_search.h"
+#include "simulate/calibrated/speckle/scatterers.h"
 #include "simulate/calibrated/speckle/speckle.h"
-#include "simulate/calibrated/speckle/target_scatterers.h"
-#include "simulate/calibrated/water_echoes.h"
 
 namespace sonarsim {
 
@@ -91,9 +86,10 @@ class ImageFormer {
             const std::span<const Sample> samples = samples_.of(kind.kind);
             if (samples.empty() || !(kind.is_surface || context_.terms.water)) continue;
             if (kind.phase == PhaseSource::ping) {
-                add_drawn_by_ping(kind.stream, grid, [&](EchoGrid& powers) {
+                const auto add = [&](EchoGrid& powers) {
                     add_pieces(kind.kind, samples, model_.limits, powers);
-                });
+                };
+                add_drawn_by_ping(stream_named(kind.stream), grid, add);
             } else if (form_ == PowerForm::power) {
                 add_pieces(kind.kind, samples, model_.limits, grid);
             } else if (kind.phase == PhaseSource::scene) {
@@ -156,17 +152,13 @@ class ImageFormer {
     /// scene`: parts of what lies behind walls overlap, waves move, and no mesh has the shape of a
     /// reflector to a fraction of a wavelength.
     template <class Add>
-    void add_drawn_by_ping(PhiloxKey key, EchoGrid& grid, Add add) {
+    void add_drawn_by_ping(Stream stream, EchoGrid& grid, Add add) {
         if (speckle_ != SpeckleMode::scene) return add(grid);
         EchoGrid powers(grid.rows(), grid.columns());
         add(powers);
         if (mean_) mean_->add(powers);
-        draw_speckle(powers, speckle_gain_, key);
+        draw_speckle(powers, speckle_gain_, context_.draws.of(stream));
         grid.add(powers);
-    }
-    template <class Add>
-    void add_drawn_by_ping(const char* stream, EchoGrid& grid, Add add) {
-        add_drawn_by_ping(context_.draws.of(stream_named(stream)), grid, add);
     }
 
     /// Adds the echoes of the sediment below sea beds.
@@ -191,7 +183,8 @@ class ImageFormer {
                       beams_.deposit(patches, echoes_, nullptr, lagged, nullptr);
                   });
         spread_below(lagged, energy);
-        add_drawn_by_ping("sediment", grid, [&](EchoGrid& powers) { powers.add(energy); });
+        add_drawn_by_ping(stream_named("sediment"), grid,
+                          [&](EchoGrid& powers) { powers.add(energy); });
     }
 
     void add_multipath(EchoGrid& grid) {
@@ -199,7 +192,7 @@ class ImageFormer {
             specular_paths(traced_, context_.scene, context_.view.shape);
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
-        add_drawn_by_ping(ping_draws_, grid, [&](EchoGrid& powers) {
+        add_drawn_by_ping(Stream::speckle, grid, [&](EchoGrid& powers) {
             std::uint64_t outside_beams = 0;
             const std::uint64_t outside_range = find_specular_echoes(
                 paths, model_.scattering.materials, model_.equation, model_.limits,

@@ -58,24 +58,18 @@ GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
 
 /// The size of patches that are points to the beams and to the bins.
 PointLimits point_limits(const BeamConfig& beam, const View& view, const Beams& beams) {
-    PointLimits limits{.depth_m = max_depth_by_bin * static_cast<float>(view.bin_m())};
-    const double width = radians(beam.width_deg);
-    if (const SineGrid* const sines = beams.sines()) {
-        limits.sine = max_sine_by_step * static_cast<float>(sines->step);
-        limits.elevation_sine =
-            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
-    } else if (beam.aperture == Aperture::head) {
-        limits.sine = static_cast<float>(max_by_width * width);
-        limits.elevation_sine =
-            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
-    } else if (beam.aperture == Aperture::port_starboard) {
-        limits.sine = static_cast<float>(max_by_width * radians(beam.across_width_deg));
-        limits.elevation_sine = static_cast<float>(max_by_width * width);
-    } else {
-        limits.sine = static_cast<float>(max_by_width * width);
-        limits.elevation_sine = limits.sine;
-    }
-    return limits;
+    const auto part = [](double width_deg) {
+        return static_cast<float>(max_by_width * radians(width_deg));
+    };
+    const float depth_m = max_depth_by_bin * static_cast<float>(view.bin_m());
+    if (const SineGrid* const sines = beams.sines())
+        return {depth_m, max_sine_by_step * static_cast<float>(sines->step),
+                part(beam.elevation_width_deg)};
+    if (beam.aperture == Aperture::head)
+        return {depth_m, part(beam.width_deg), part(beam.elevation_width_deg)};
+    if (beam.aperture == Aperture::port_starboard)
+        return {depth_m, part(beam.across_width_deg), part(beam.width_deg)};
+    return {depth_m, part(beam.width_deg), part(beam.width_deg)};
 }
 
 /// A resolution cell, or less where the pattern of a transducer bends within it.
@@ -110,7 +104,6 @@ std::vector<double> row_noises(const std::vector<float>& row_gain, double noise,
 std::vector<float> noise_values(const std::vector<float>& row_gain,
                                 std::span<const double> row_noise) {
     std::vector<float> out;
-    out.reserve(row_gain.size());
     for (std::size_t i = 0; i < row_gain.size(); ++i)
         out.push_back(std::min(row_gain[i] * static_cast<float>(row_noise[i]), max_value));
     return out;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "input/mission/mission.h"
@@ -12,7 +13,6 @@
 #include "simulate/calibrated/equation/sediment.h"
 #include "simulate/calibrated/equation/sonar_equation.h"
 #include "simulate/calibrated/equation/specular_echoes.h"
-#include "simulate/calibrated/receiver/detected_sample.h"
 #include "simulate/calibrated/receiver/receiver_chain.h"
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "simulate/calibrated/speckle/speckle.h"
@@ -70,5 +70,12 @@ struct CalibratedModel final : EchoModel {
 /// Sets up the instrument of a sonar with this view; only a line array needs `sines`.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const BeamSines& sines);
+
+/// Forms the image of one ping: [range bins, beams] powers after the gain into `ping.intensity`,
+/// which must be 0 before, and the counts. The numbered steps are sections 1 to 5 of
+/// docs/calibrated.md. `mean`: of the size of the image, receives it without noise and without the
+/// draws of amplitudes; empty: not needed.
+void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
+               std::span<float> mean, Ping& ping);
 
 }  // namespace sonarsim

@@ -6,8 +6,6 @@
 
 #include "core/clock.h"
 #include "simulate/calibrated/equation/bottom.h"
-#include "simulate/calibrated/equation/wind_surface.h"
-#include "simulate/calibrated/form_look.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/calibrated/receiver/receiver_chain.h"
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "input/scene/objects.h"
-#include "simulate/calibrated/equation/piece_strengths.h"
 #include "simulate/calibrated/equation/specular_echoes.h"
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/trace/arrivals.h"

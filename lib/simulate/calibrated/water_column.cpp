@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A value of the key `content`.
+/// The parts of volume_strength() by the key `content`.
 struct Content {
     double strength = 0.0;  ///< m^2 per m^3
     double suspended_mg_l = 0.0;
@@ -30,11 +30,9 @@ Content content_of(WaterContent content) {
             return {power_of_db(-65.0), 20.0};
         case WaterContent::plume:
             return {power_of_db(-55.0), 0.0};
-        case WaterContent::automatic:
-        case WaterContent::none:
-            break;
+        default:
+            return {};
     }
-    return {};
 }
 
 double bell(double x) {

@@ -1,5 +1,3 @@
-#include "simulate/calibrated/water_echoes.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "simulate/calibrated/equation/patches.h"
+#include "simulate/calibrated/kind_echoes.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"
 

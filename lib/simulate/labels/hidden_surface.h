@@ -5,7 +5,7 @@
 
 #include "input/scene/objects.h"
 #include "simulate/labels/object_directions.h"
-#include "simulate/ping/form_image.h"
+#include "simulate/ping/sonar.h"
 #include "simulate/trace/range_boxes.h"
 #include "simulate/trace/surface_echoes.h"
 

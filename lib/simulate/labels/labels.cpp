@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "simulate/labels/patch_labels.h"
 #include "simulate/labels/shadow.h"
 #include "simulate/labels/top_two.h"
 #include "simulate/visibility/coverage.h"
@@ -263,8 +262,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,
                                 view.shape};
-        label_patches(echoes, view, places, request.bottom, scene.is_bottom,
-                      {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
+        label_patches(echoes, view, places, request.bottom, scene.is_bottom, labels);
     }
     return labels;
 }

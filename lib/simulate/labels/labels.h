@@ -8,7 +8,7 @@
 #include "input/scene/objects.h"
 #include "input/scene/placing/bottom.h"
 #include "simulate/labels/object_directions.h"
-#include "simulate/ping/form_image.h"
+#include "simulate/ping/sonar.h"
 #include "simulate/visibility/clusters_in_view.h"
 
 namespace sonarsim {
@@ -104,5 +104,11 @@ void for_each_label(const LabelRequest& request, Use use) {
 PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                       const SceneObjects& objects, const VisibilityEngine& engine,
                       const LabelRequest& request);
+
+/// Fills the elevations and heights for which there is room. The bins that a patch covers are
+/// computed once for both. Without a `bottom` nothing has a height. `is_bottom`: that of the scene.
+void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
+                   const Bottom* bottom, std::span<const std::uint8_t> is_bottom,
+                   PingLabels& labels);
 
 }  // namespace sonarsim

@@ -1,7 +1,8 @@
-#include "simulate/labels/mask_window.h"
-
 #include <iterator>
+#include <map>
 #include <utility>
+
+#include "simulate/labels/silhouette.h"
 
 namespace sonarsim {
 
@@ -45,30 +46,31 @@ std::vector<int> MaskWindow::flood(int k, float value, bool diagonal) {
     return found;
 }
 
-std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
-                                               std::span<const std::uint16_t> ids) {
-    std::map<std::uint16_t, MaskWindow> out;
+std::vector<MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
+                                   std::span<const std::uint16_t> ids) {
+    std::map<std::uint16_t, MaskWindow> boxes;
     for (int line = 0; line < frame.lines; ++line) {
         const std::span<const std::uint16_t> line_objects =
             ids.subspan(static_cast<std::size_t>(line) * frame.bins, frame.bins);
         for (int bin = 0; bin < frame.bins; ++bin) {
             if (line_objects[bin] == 0) continue;
-            MaskWindow& box =
-                out.try_emplace(line_objects[bin], MaskWindow{line, bin}).first->second;
+            const std::uint16_t id = line_objects[bin];
+            MaskWindow& box = boxes.try_emplace(id, MaskWindow{id, line, bin}).first->second;
             box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
             box.bin = std::min(box.bin, bin);
             box.lines = line + 1 - box.line;
         }
     }
-    for (auto& [id, box] : out) {
-        const int more_lines = 2 * reach.lines + 1;
-        const int more_bins = 2 * reach.bins + 1;
-        box = {box.line - more_lines, box.bin - more_bins, box.lines + 2 * more_lines,
-               box.bins + 2 * more_bins};
-        box.values.resize(static_cast<std::size_t>(box.lines) * box.bins);
-        box.for_each(frame, [&ids, own = id](float& value, std::size_t k) {
-            value = ids[k] == own ? 1.0F : 0.0F;
-        });
+    const int more_lines = 2 * reach.lines + 1;
+    const int more_bins = 2 * reach.bins + 1;
+    std::vector<MaskWindow> out;
+    for (const auto& [id, box] : boxes) {
+        MaskWindow& window =
+            out.emplace_back(MaskWindow{id, box.line - more_lines, box.bin - more_bins,
+                                        box.lines + 2 * more_lines, box.bins + 2 * more_bins});
+        window.values.resize(static_cast<std::size_t>(window.lines) * window.bins);
+        window.for_each(
+            frame, [&](float& value, std::size_t k) { value = ids[k] == window.id ? 1.0F : 0.0F; });
     }
     return out;
 }

@@ -1,5 +1,3 @@
-#include "simulate/labels/patch_labels.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <optional>
 
 #include "core/elementary.h"
+#include "simulate/labels/labels.h"
 #include "simulate/labels/range_path.h"
 #include "simulate/trace/arrivals.h"
 
@@ -59,11 +58,10 @@ void find_bins(const double* __restrict echo, const double* __restrict first,
     }
 }
 
-/// Finds the elevation of the surface in the bins of some beams.
-class ElevationFinder {
+/// Finds the elevation of the surface in the bins of some beams, by the moments of sin(theta).
+class ElevationFinder : public BinMoments<2> {
   public:
-    /// `rows`: the number of beams that are summed at once.
-    ElevationFinder(const RangeBins& bins, int rows) : sums_(rows, bins.count) {}
+    using BinMoments::BinMoments;
 
     /// Begins the next patch.
     void begin(const EchoPatch& patch, const RangePath& path) {
@@ -82,22 +80,9 @@ class ElevationFinder {
             const double enters = sine_at(k);
             const double leaves = sine_at(k + 1);
             const double along = leaves - enters;
-            mean_[k] = 0.5 * (enters + leaves);
-            square_[k] = mean_[k] * mean_[k] + along * along / 12.0 + variance_at_range_;
-        }
-    }
-
-    /// Adds an echo of the patch to these bins of a row.
-    void add(std::uint32_t row, double echo, const CoveredBins& covered) {
-        const auto [to_echo, to_first, to_second] = sums_.at(row, covered);
-        double* const __restrict sum = to_echo;
-        double* const __restrict first = to_first;
-        double* const __restrict second = to_second;
-        for (int k = 0; k < covered.whole; ++k) {
-            const double part = echo * covered.share[k];
-            sum[k] += part;
-            first[k] += part * mean_[k];
-            second[k] += part * square_[k];
+            const double mean = 0.5 * (enters + leaves);
+            moment_[0][k] = mean;
+            moment_[1][k] = mean * mean + along * along / 12.0 + variance_at_range_;
         }
     }
 
@@ -105,26 +90,21 @@ class ElevationFinder {
     /// sin(theta), weighted with the echo. Bins without an echo are left as they are, or NaN.
     /// Clears the row.
     void find(std::uint32_t row, std::span<float> elevation_rad, std::span<float> spread_rad) {
-        const BinSumRows<3>::Row sums = sums_.row(row);
-        const auto [echo, first, second] = sums.of;
-        // Most blocks hold water alone and are skipped.
-        for (int from = sums.first; from < sums.last; from += block) {
-            const int count = std::min(block, sums.last - from);
-            const std::span<const double> echoes(echo + from, count);
-            if (std::ranges::all_of(echoes, [](double e) { return e == 0.0; })) continue;
-            find_bins(echo + from, first + from, second + from, count, &elevation_rad[from],
-                      &spread_rad[from]);
-        }
-        sums_.clear(row);
+        take(row, [&](int begin, int end, const Sums& sums) {
+            const auto [echo, first, second] = sums;
+            // Most blocks hold water alone and are skipped.
+            for (int from = begin; from < end; from += block) {
+                const int count = std::min(block, end - from);
+                const std::span<const double> echoes(echo + from, count);
+                if (std::ranges::all_of(echoes, [](double e) { return e == 0.0; })) continue;
+                find_bins(echo + from, first + from, second + from, count, &elevation_rad[from],
+                          &spread_rad[from]);
+            }
+        });
     }
 
   private:
-    /// The echo and its moments of sin(theta). Doubles, since a spread is a small difference of
-    /// squares.
-    BinSumRows<3> sums_;
-    // This patch:
-    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;
-    std::array<double, CoveredBins::at_once> mean_{}, square_{};  ///< sin(theta), by bin
+    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;  ///< of this patch
 };
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
@@ -136,18 +116,17 @@ constexpr double on_bottom_where_bent = 2e-3;
 constexpr float vertical = 1e-3F;
 
 /// Finds the height above the bottom of the surface in the bins of some beams.
-class HeightFinder {
+class HeightFinder : public BinMoments<1> {
   public:
-    /// `rows`: the number of beams that are summed at once. `is_bottom`: that of the scene. Both it
-    /// and the bottom must outlive the finder.
-    HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom,
-                 std::span<const std::uint8_t> is_bottom, const TruePlaces& places)
-        : bottom_(bottom),
+    /// `is_bottom`: that of the scene. Both it and the bottom must outlive the finder.
+    HeightFinder(int rows, int bins, const Bottom& bottom, std::span<const std::uint8_t> is_bottom,
+                 const TruePlaces& places)
+        : BinMoments(rows, bins),
+          bottom_(bottom),
           is_bottom_instance_(is_bottom),
           places_(places),
           up_((places.T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ())
-                  .cast<float>()),
-          sums_(rows, bins.count) {}
+                  .cast<float>()) {}
 
     /// Begins the next patch. False if there is no bottom below it, so that it has no height.
     bool begin(const EchoPatch& patch, const RangePath& path) {
@@ -173,35 +152,23 @@ class HeightFinder {
 
     /// Computes these bins of the patch.
     void cover(const CoveredBins& covered) {
-        if (is_bottom_) return mean_.fill(0.0);
+        if (is_bottom_) return moment_[0].fill(0.0);
         const auto height_at = [&](int k) {
             return std::max(height_m_ + (rise_m_ + slope_ * covered.way[k]) - rise_m_, 0.0);
         };
         for (int k = 0; k < covered.whole; ++k)
-            mean_[k] = 0.5 * (height_at(k) + height_at(k + 1));
-    }
-
-    /// Adds an echo of the patch to these bins of a row.
-    void add(std::uint32_t row, double echo, const CoveredBins& covered) {
-        const auto [to_echo, to_height] = sums_.at(row, covered);
-        double* const __restrict sum = to_echo;
-        double* const __restrict height = to_height;
-        for (int k = 0; k < covered.whole; ++k) {
-            const double part = echo * covered.share[k];
-            sum[k] += part;
-            height[k] += part * mean_[k];
-        }
+            moment_[0][k] = 0.5 * (height_at(k) + height_at(k + 1));
     }
 
     /// The mean height of the echo of each bin above the highest bottom below it. Bins without an
     /// echo or without a bottom are left as they are. Clears the row.
     void find(std::uint32_t row, std::span<float> height_m) {
-        const BinSumRows<2>::Row sums = sums_.row(row);
-        const auto [echo, height] = sums.of;
-        for (int i = sums.first; i < sums.last; ++i) {
-            if (echo[i] > 0.0) height_m[i] = static_cast<float>(height[i] / echo[i]);
-        }
-        sums_.clear(row);
+        take(row, [&](int first, int last, const Sums& sums) {
+            const auto [echo, height] = sums;
+            for (int i = first; i < last; ++i) {
+                if (echo[i] > 0.0) height_m[i] = static_cast<float>(height[i] / echo[i]);
+            }
+        });
     }
 
   private:
@@ -215,11 +182,9 @@ class HeightFinder {
     std::span<const std::uint8_t> is_bottom_instance_;
     TruePlaces places_;
     Eigen::Vector3f up_;  ///< sensor frame
-    BinSumRows<2> sums_;  ///< the echo, and the echo times the height
     // This patch:
     bool is_bottom_ = false;
     double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0;
-    std::array<double, CoveredBins::at_once> mean_{};  ///< height, by bin
 };
 
 /// The finders that a request needs.
@@ -253,15 +218,15 @@ struct PatchFinders {
 
 void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
                    const Bottom* bottom, std::span<const std::uint8_t> is_bottom,
-                   const PatchLabels& labels) {
+                   PingLabels& labels) {
     const RangeBins bins = range_bins(view);
     // Patches that are sorted by beam need one row of sums, which stays in the cache.
     const bool sorted = !echoes.patch_begin.empty();
     const int rows = sorted ? 1 : view.beams;
     PatchFinders finders;
-    if (!labels.elevation_rad.empty()) finders.elevation.emplace(bins, rows);
+    if (!labels.elevation_rad.empty()) finders.elevation.emplace(rows, bins.count);
     if (!labels.height_m.empty() && bottom != nullptr)
-        finders.height.emplace(bins, rows, *bottom, is_bottom, places);
+        finders.height.emplace(rows, bins.count, *bottom, is_bottom, places);
     if (!sorted) {
         for (const EchoPatch& patch : echoes.patches)
             finders.add(echoes, patch, bins, [](const PatchEcho& echo) { return echo.beam; });
@@ -271,8 +236,9 @@ void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlac
             for (std::uint32_t k = echoes.patch_begin[j]; k < echoes.patch_begin[j + 1]; ++k)
                 finders.add(echoes, echoes.patches[k], bins, [](const PatchEcho&) { return 0U; });
         }
-        const auto own = [&](std::span<float> all) {
-            return all.subspan(static_cast<std::size_t>(j) * view.range_bins, view.range_bins);
+        const auto own = [&](std::vector<float>& all) {
+            return std::span(all).subspan(static_cast<std::size_t>(j) * view.range_bins,
+                                          view.range_bins);
         };
         const auto row = static_cast<std::uint32_t>(sorted ? 0 : j);
         if (finders.elevation) {

@@ -102,17 +102,12 @@ void for_each_covered(const RangePath& path, const RangeBins& bins, Visit visit)
     }
 }
 
-/// Some sums by beam and bin, 0 at first, with places for whole vectors of CoveredBins beyond the
-/// last bin.
-template <std::size_t sums>
-class BinSumRows {
+/// The echo of each bin of some rows, and its moments: the sums of echoes times what `moment_` has
+/// of their patch. With places for whole vectors of CoveredBins beyond the last bin.
+template <std::size_t moments>
+class BinMoments {
   public:
-    struct Row {
-        std::array<double*, sums> of{};  ///< indexed by bin
-        int first = 0, last = 0;         ///< outside the bins [first, last) all is 0
-    };
-
-    BinSumRows(int rows, int bins)
+    BinMoments(int rows, int bins)
         : stride_(static_cast<std::size_t>(bins) + CoveredBins::lanes),
           reached_(rows, {bins, 0}),
           bins_(bins) {
@@ -120,31 +115,44 @@ class BinSumRows {
             all.resize(static_cast<std::size_t>(rows) * stride_);
     }
 
-    /// The sums of the covered bins, to be added to.
-    std::array<double*, sums> at(std::uint32_t row, const CoveredBins& covered) {
+    /// Adds an echo of the patch to these bins of a row.
+    void add(std::uint32_t row, double echo, const CoveredBins& covered) {
         Reached& reached = reached_[row];
         reached.first = std::min(reached.first, covered.first);
         reached.last = std::max(reached.last, covered.first + covered.count);
-        std::array<double*, sums> out;
-        for (std::size_t n = 0; n < sums; ++n)
-            out[n] = sums_[n].data() + row * stride_ + covered.first;
-        return out;
-    }
-
-    Row row(std::uint32_t row) {
-        Row out{.first = reached_[row].first, .last = reached_[row].last};
-        for (std::size_t n = 0; n < sums; ++n)
-            out.of[n] = sums_[n].data() + row * stride_;
-        return out;
-    }
-
-    void clear(std::uint32_t row) {
-        const Row all = this->row(row);
-        for (double* const sum : all.of) {
-            if (all.first < all.last) std::fill(sum + all.first, sum + all.last, 0.0);
+        const std::size_t at = row * stride_ + covered.first;
+        double* const __restrict sum = sums_[0].data() + at;
+        std::array<double, CoveredBins::at_once> parts;
+        for (int k = 0; k < covered.whole; ++k) {
+            parts[k] = echo * covered.share[k];
+            sum[k] += parts[k];
         }
+        for (std::size_t n = 0; n < moments; ++n) {
+            double* const __restrict moment = sums_[n + 1].data() + at;
+            for (int k = 0; k < covered.whole; ++k)
+                moment[k] += parts[k] * moment_[n][k];
+        }
+    }
+
+  protected:
+    using Sums = std::array<double*, moments + 1>;  ///< the echo and its moments, by bin
+
+    /// Calls use(first, last, sums) for a row, outside whose bins [first, last) all is 0, and
+    /// clears it.
+    template <class Use>
+    void take(std::uint32_t row, Use use) {
+        const auto [first, last] = reached_[row];
+        Sums sums;
+        for (std::size_t n = 0; n <= moments; ++n)
+            sums[n] = sums_[n].data() + row * stride_;
+        use(first, last, sums);
+        for (double* const sum : sums)
+            std::fill(sum + first, sum + std::max(first, last), 0.0);
         reached_[row] = {bins_, 0};
     }
+
+    /// Of this patch, by covered bin.
+    std::array<std::array<double, CoveredBins::at_once>, moments> moment_{};
 
   private:
     struct Reached {
@@ -152,7 +160,8 @@ class BinSumRows {
     };
 
     std::size_t stride_;
-    std::array<std::vector<double>, sums> sums_;
+    /// Doubles, since a spread is a small difference of squares.
+    std::array<std::vector<double>, moments + 1> sums_;
     std::vector<Reached> reached_;
     int bins_;
 };

@@ -186,17 +186,16 @@ Ids find_bodies(const ExpectedBins& ping, std::span<const float> noise, float mi
     const CellReach reach(cell);
     const auto scale = static_cast<float>(cell.range_bins * cell.beams) / reach.count();
     Ids out(ping.object.size());
-    for (auto& [id, window] : windows_of(ping.frame, reach, ping.object)) {
-        const std::uint16_t object = id;
+    for (MaskWindow& window : windows_of(ping.frame, reach, ping.object)) {
         window.for_each(ping.frame, [&](float& more, std::size_t k) {
-            if (ping.object[k] != object) return;
+            if (ping.object[k] != window.id) return;
             const float rest = std::max(ping.whole[k] - ping.echo[k], 0.0F);
             more = scale * (ping.echo[k] - min_ratio * rest);
         });
         window.sum_within(reach);
         window.for_each(ping.frame, [&](float more, std::size_t k) {
             const float bare = noise.empty() ? 0.0F : noise[k % ping.frame.bins];
-            if (ping.object[k] == object && more >= min_ratio * bare) out[k] = object;
+            if (ping.object[k] == window.id && more >= min_ratio * bare) out[k] = window.id;
         });
     }
     return out;
@@ -208,12 +207,11 @@ void add_bright(const MaskFrame& frame, const Ids& bright, Ids& bodies) {
     for (std::size_t k = 0; k < both.size(); ++k) {
         if (both[k] == 0) both[k] = bright[k];
     }
-    for (auto& [id, shape] : windows_of(frame, reach, both)) {
-        const std::uint16_t object = id;
+    for (MaskWindow& shape : windows_of(frame, reach, both)) {
         sum_and_compare(shape, reach, reach.count());
         sum_and_compare(shape, reach, 1.0F);
         shape.for_each(frame, [&](float value, std::size_t k) {
-            if (value != 0.0F && both[k] == object) bodies[k] = object;
+            if (value != 0.0F && both[k] == shape.id) bodies[k] = shape.id;
         });
     }
 }
@@ -224,15 +222,15 @@ Ids outlined(const MaskFrame& frame, const Ids& ids) {
     Ids out(ids.size());
     const CellReach margin(
         {2.0 * (reach.bins + half_cell.bins), 2.0 * (reach.lines + half_cell.lines)});
-    for (auto& [id, shape] : windows_of(frame, margin, ids)) {
-        const std::uint16_t object = id;
+    for (MaskWindow& shape : windows_of(frame, margin, ids)) {
         sum_and_compare(shape, half_cell, 1.0F);
         tidy(shape, reach, [&](const std::vector<int>& piece) {
             return static_cast<float>(piece.size()) >= half_cell.count();
         });
         fill_hulls(frame, shape);
         shape.for_each(frame, [&](float value, std::size_t k) {
-            if (value != 0.0F && (ids[k] == 0 || ids[k] == object) && out[k] == 0) out[k] = object;
+            const bool is_free = out[k] == 0 && (ids[k] == 0 || ids[k] == shape.id);
+            if (value != 0.0F && is_free) out[k] = shape.id;
         });
     }
     return out;
@@ -240,11 +238,10 @@ Ids outlined(const MaskFrame& frame, const Ids& ids) {
 
 void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible, Ids& ids) {
     constexpr float found = 2.0F;
-    for (auto& [id, shape] : windows_of(frame, CellReach({}), ids)) {
-        const std::uint16_t object = id;
+    for (MaskWindow& shape : windows_of(frame, CellReach({}), ids)) {
         MaskWindow kept = shape;
         kept.for_each(frame, [&](float& value, std::size_t k) {
-            value = visible[k] == object ? 1.0F : 0.0F;
+            value = visible[k] == shape.id ? 1.0F : 0.0F;
         });
         for (int k = 0; k < std::ssize(shape.values); ++k) {
             if (shape.values[k] == 1.0F && kept.values[k] == 1.0F) shape.flood(k, found, true);
@@ -264,21 +261,19 @@ Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow,
         if (both[k] == 0 && has_shadow[shadow[k]] != 0) both[k] = shadow[k];
     }
     Ids out = ids;
-    for (auto& [id, shape] : windows_of(frame, reach, both)) {
-        const std::uint16_t object = id;
-        if (has_shadow[object] == 0) continue;
-        const MaskWindow& window = shape;
+    for (MaskWindow& shape : windows_of(frame, reach, both)) {
+        if (has_shadow[shape.id] == 0) continue;
         std::vector<char> has_object(shape.lines);
         shape.for_each(frame, [&](float, std::size_t k) {
-            if (ids[k] == object) has_object[k / frame.bins - window.line] = 1;
+            if (ids[k] == shape.id) has_object[k / frame.bins - shape.line] = 1;
         });
         tidy(shape, reach, [&](const std::vector<int>& piece) {
             return static_cast<float>(piece.size()) >= min_size &&
                    std::ranges::any_of(piece,
-                                       [&](int k) { return has_object[k / window.bins] != 0; });
+                                       [&](int k) { return has_object[k / shape.bins] != 0; });
         });
         shape.for_each(frame, [&](float value, std::size_t k) {
-            if (value != 0.0F && out[k] == 0) out[k] = object;
+            if (value != 0.0F && out[k] == 0) out[k] = shape.id;
         });
     }
     return out;

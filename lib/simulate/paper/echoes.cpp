@@ -1,40 +1,148 @@
 #include "simulate/paper/echoes.h"
 
-#include <xmmintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "simulate/paper/footprint.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
 
+/// A block of samples, and how they are cut into pieces. Arrays, so that loops vectorise.
+struct Footprints {
+    static constexpr int capacity = 64;
+    using Floats = std::array<float, capacity>;
+    using Vectors = std::array<Floats, 3>;  ///< x, y, z
+
+    int count = 0;  ///< number of samples, rounded up to whole vectors with the last sample
+    Vectors position, edge_u, edge_v;  ///< m, sensor frame
+    Floats height_m, area_m2, reflection;
+    Vectors cell, cell_u, cell_v;  ///< the same in scatterer cells, if there is noise
+
+    Floats range_m, depth_u_m,
+        depth_v_m;   ///< range of the centre; extent in range of each half edge
+    Floats u, v;     ///< whole numbers: pieces along either edge
+    Floats half_m;   ///< half the extent of a piece in range
+    Floats shift_m;  ///< middle of that extent, relative to the centre of the piece
+    Floats weight;   ///< area of a piece, m^2
+};
+
+// Pieces of a bin: the contrast of a mean over 64 draws is an eighth of one draw's.
+constexpr float max_pieces_per_bin = 64.0F;
+
+/// The squared length of (x, y, z) in the order in which Eigen adds.
+float squared(float x, float y, float z) {
+    return x * x + (y * y + z * z);
+}
+
+void load(std::span<const Sample> samples, std::span<const Material> materials, Footprints& f) {
+    constexpr std::size_t whole = 8;
+    const std::size_t count = (samples.size() + whole - 1) / whole * whole;
+    f.count = static_cast<int>(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Sample& sample = samples[std::min(k, samples.size() - 1)];
+        for (int axis = 0; axis < 3; ++axis) {
+            f.position[axis][k] = sample.position[axis];
+            f.edge_u[axis][k] = sample.edge_u[axis];
+            f.edge_v[axis][k] = sample.edge_v[axis];
+        }
+        f.height_m[k] = sample.height_m;
+        f.area_m2[k] = sample.area_m2;
+        f.reflection[k] = materials[sample.material].reflection * sample.strength;
+    }
+}
+
+/// out = M in + base.
+void transform(const Eigen::Matrix3f& M, const Eigen::Vector3f& base, int count,
+               const Footprints::Vectors& in, Footprints::Vectors& out) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const float mx = M(axis, 0);
+        const float my = M(axis, 1);
+        const float mz = M(axis, 2);
+        const float b = base[axis];
+        for (int k = 0; k < count; ++k) {
+            out[axis][k] =
+                std::fma(mx, in[0][k], std::fma(my, in[1][k], std::fma(mz, in[2][k], b)));
+        }
+    }
+}
+
+void find_depths(Footprints& f) {
+    const int count = f.count;
+    for (int k = 0; k < count; ++k) {
+        const auto [range, x, y, z] =
+            arrival_at(f.position[0][k], f.position[1][k], f.position[2][k]);
+        f.range_m[k] = range;
+        f.depth_u_m[k] = std::fabs(x * f.edge_u[0][k] + (y * f.edge_u[1][k] + z * f.edge_u[2][k]));
+        f.depth_v_m[k] = std::fabs(x * f.edge_v[0][k] + (y * f.edge_v[1][k] + z * f.edge_v[2][k]));
+    }
+}
+
+/// Cuts footprints into pieces no larger than a scatterer cell.
+void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
+    const int count = f.count;
+    for (int k = 0; k < count; ++k) {
+        const float u_m = std::sqrt(squared(f.edge_u[0][k], f.edge_u[1][k], f.edge_u[2][k]));
+        const float v_m = std::sqrt(squared(f.edge_v[0][k], f.edge_v[1][k], f.edge_v[2][k]));
+        const float bins = 2.0F + 2.0F * (f.depth_u_m[k] + f.depth_v_m[k]) / bin_m;
+        const PieceCounts wanted = one_piece_per_cell(u_m, v_m, cell_m, max_pieces_per_bin * bins);
+        f.u[k] = std::ceil(wanted.u);
+        f.v[k] = std::ceil(wanted.v);
+    }
+}
+
+void cut_for_bins(float bin_m, Footprints& f) {
+    const int count = f.count;
+    for (int k = 0; k < count; ++k) {
+        const PieceCounts pieces =
+            pieces_for_bins(f.depth_u_m[k], f.depth_v_m[k], f.range_m[k], bin_m);
+        f.u[k] = pieces.u;
+        f.v[k] = pieces.v;
+    }
+}
+
+void find_extents(Footprints& f) {
+    const int count = f.count;
+    for (int k = 0; k < count; ++k) {
+        const float u = 1.0F / f.u[k];
+        const float v = 1.0F / f.v[k];
+        const float edge_u = squared(f.edge_u[0][k] * u, f.edge_u[1][k] * u, f.edge_u[2][k] * u);
+        const float edge_v = squared(f.edge_v[0][k] * v, f.edge_v[1][k] * v, f.edge_v[2][k] * v);
+        const RangeExtent along_u = extent_of(edge_u, f.depth_u_m[k] * u, f.range_m[k]);
+        const RangeExtent along_v = extent_of(edge_v, f.depth_v_m[k] * v, f.range_m[k]);
+        const float before = along_u.before + along_v.before;
+        const float after = along_u.after + along_v.after;
+        f.half_m[k] = 0.5F * (after + before);
+        f.shift_m[k] = 0.5F * (after - before);
+        f.weight[k] = f.area_m2[k] / (f.u[k] * f.v[k]);
+    }
+}
+
+/// Makes the footprints of at most `Footprints::capacity` samples and cuts them: into one piece per
+/// scatterer cell or, without cells, so that no piece is deeper than the bins resolve.
+void cut_footprints(std::span<const Sample> samples, std::span<const Material> materials,
+                    float bin_m, const ScattererLattice& lattice, Footprints& footprints) {
+    load(samples, materials, footprints);
+    find_depths(footprints);
+    if (lattice.exists()) {
+        const CellFrame cells(lattice);
+        const Eigen::Vector3f none = Eigen::Vector3f::Zero();
+        transform(cells.rotation, cells.base, footprints.count, footprints.position,
+                  footprints.cell);
+        transform(cells.rotation, none, footprints.count, footprints.edge_u, footprints.cell_u);
+        transform(cells.rotation, none, footprints.count, footprints.edge_v, footprints.cell_v);
+        cut_for_cells(bin_m, lattice.edge_m, footprints);
+    } else {
+        cut_for_bins(bin_m, footprints);
+    }
+    find_extents(footprints);
+}
+
 constexpr int lanes = 8;
 
 constexpr std::array<float, lanes> lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
-
-/// The destination of the echoes of a footprint.
-struct EchoSlots {
-    float* range_m;
-    float* half_m;
-    float* weight;
-    float* intensity;
-    std::uint32_t* cell_low;  ///< null without scatterer cells
-    std::uint32_t* cell_high;
-};
-
-EchoSlots slots_at(Echoes& echoes, std::size_t at, bool cells) {
-    return {.range_m = echoes.range_m.data() + at,
-            .half_m = echoes.half_m.data() + at,
-            .weight = echoes.weight.data() + at,
-            .intensity = echoes.intensity.data() + at,
-            .cell_low = cells ? echoes.cell_low.data() + at : nullptr,
-            .cell_high = cells ? echoes.cell_high.data() + at : nullptr};
-}
 
 std::int32_t whole(float x) {
     return static_cast<std::int32_t>(std::floor(x));
@@ -46,8 +154,10 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
     return std::fma(s, u[axis][k], std::fma(t, v[axis][k], c[axis][k]));
 }
 
-/// Writes the echoes of footprint k, of `count` pieces, and up to seven lanes more.
-void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots& to) {
+/// Writes the echoes of footprint k, of `count` pieces, from the number `begin` on, and up to seven
+/// lanes more.
+void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std::size_t begin,
+                  Echoes& to) {
     const float row_length = f.v[k];
     const float per_row = 1.0F / row_length;
     const float u_step = 2.0F / f.u[k];
@@ -56,6 +166,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots
     const float height = f.height_m[k];
     const float reflection = f.reflection[k];
     for (int first = 0; first < count; first += lanes) {
+        const std::size_t at = begin + first;
         std::array<float, lanes> s, t;
         const auto start = static_cast<float>(first);
         for (int lane = 0; lane < lanes; ++lane) {
@@ -64,8 +175,8 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots
             s[lane] = (row + 0.5F) * u_step - 1.0F;
             t[lane] = (piece - row * row_length + 0.5F) * v_step - 1.0F;
         }
-        float* const __restrict range_m = to.range_m + first;
-        float* const __restrict intensity = to.intensity + first;
+        float* const __restrict range_m = to.range_m.data() + at;
+        float* const __restrict intensity = to.intensity.data() + at;
         for (int lane = 0; lane < lanes; ++lane) {
             const float x = along(f.position, f.edge_u, f.edge_v, 0, k, s[lane], t[lane]);
             const float y = along(f.position, f.edge_u, f.edge_v, 1, k, s[lane], t[lane]);
@@ -74,11 +185,11 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots
             range_m[lane] = r + shift;
             intensity[lane] = reflection * std::min(height / r, 1.0F);
         }
-        std::fill_n(to.half_m + first, lanes, f.half_m[k]);
-        std::fill_n(to.weight + first, lanes, f.weight[k]);
-        if (!to.cell_low) continue;
-        std::uint32_t* const __restrict low = to.cell_low + first;
-        std::uint32_t* const __restrict high = to.cell_high + first;
+        std::fill_n(to.half_m.data() + at, lanes, f.half_m[k]);
+        std::fill_n(to.weight.data() + at, lanes, f.weight[k]);
+        if (!cells) continue;
+        std::uint32_t* const __restrict low = to.cell_low.data() + at;
+        std::uint32_t* const __restrict high = to.cell_high.data() + at;
         for (int lane = 0; lane < lanes; ++lane) {
             const CellName name =
                 cell_name(whole(along(f.cell, f.cell_u, f.cell_v, 0, k, s[lane], t[lane])),
@@ -88,21 +199,6 @@ void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots
             high[lane] = name.high;
         }
     }
-}
-
-constexpr int tile = 4;
-
-/// Writes the first 4 values of 4 lists, `from_step` apart, as columns of 4 rows, `to_step` apart.
-void write_transposed(const float* from, std::size_t from_step, float* to, std::size_t to_step) {
-    __m128 a = _mm_loadu_ps(from);
-    __m128 b = _mm_loadu_ps(from + from_step);
-    __m128 c = _mm_loadu_ps(from + 2 * from_step);
-    __m128 d = _mm_loadu_ps(from + 3 * from_step);
-    _MM_TRANSPOSE4_PS(a, b, c, d);
-    _mm_storeu_ps(to, a);
-    _mm_storeu_ps(to + to_step, b);
-    _mm_storeu_ps(to + 2 * to_step, c);
-    _mm_storeu_ps(to + 3 * to_step, d);
 }
 
 }  // namespace
@@ -132,43 +228,12 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
             if (end + count + lanes > echoes.size()) {
                 echoes.resize(2 * (end + count + lanes), named);
             }
-            write_pieces(footprints, k, count, slots_at(echoes, end, named));
+            write_pieces(footprints, k, count, named, end, echoes);
             end += count;
             if (ends) ends->push_back(static_cast<std::uint32_t>(end));
         }
     }
     echoes.resize(end, named);
-}
-
-std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
-    int occupied = 0;
-    const auto first = static_cast<std::size_t>(sums.first);
-    const auto end = static_cast<std::size_t>(sums.end);
-    std::fill(intensity.begin(), intensity.begin() + sums.first, 0.0F);
-    std::fill(intensity.begin() + sums.end, intensity.end(), 0.0F);
-    for (std::size_t i = first; i < end; ++i) {
-        const float weight = sums.weight(i);
-        const bool visible = weight > 0.0F;
-        intensity[i] = visible ? sums.echo(i) / weight : 0.0F;
-        occupied += visible ? 1 : 0;
-    }
-    return occupied;
-}
-
-void write_beams(std::span<const float> by_beam, int beams, int first, int columns,
-                 std::span<float> image) {
-    const std::size_t rows = image.size() / columns;
-    const std::size_t whole_rows = rows / tile * tile;
-    const int whole_beams = beams / tile * tile;
-    float* const to = image.data() + first;
-    for (std::size_t i = 0; i < whole_rows; i += tile) {
-        for (int j = 0; j < whole_beams; j += tile)
-            write_transposed(by_beam.data() + j * rows + i, rows, to + i * columns + j, columns);
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-        for (int j = i < whole_rows ? whole_beams : 0; j < beams; ++j)
-            to[i * columns + j] = by_beam[j * rows + i];
-    }
 }
 
 }  // namespace sonarsim

@@ -1,11 +1,9 @@
-#include "simulate/paper/multipath_echoes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/groups.h"
-#include "simulate/paper/footprint.h"
+#include "simulate/paper/echoes.h"
 
 namespace sonarsim {
 
@@ -38,8 +36,9 @@ Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererL
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
                            (1.0F + wanted.u + wanted.v);
-        const PieceCounts cells = one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(),
-                                                lattice.edge_m, max_bounce_pieces_per_bin * bins);
+        const PieceCounts cells =
+            one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(), lattice.edge_m,
+                               max_bounce_pieces_per_bin * bins);
         wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
     }
     const auto rounded_up = [](float pieces) {

@@ -9,7 +9,6 @@
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/paper/echoes.h"
-#include "simulate/paper/scatterers.h"
 #include "simulate/visibility/engine.h"
 
 namespace sonarsim {

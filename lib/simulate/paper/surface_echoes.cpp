@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "simulate/paper/echoes.h"
-#include "simulate/paper/multipath_echoes.h"
 #include "simulate/paper/paper_model.h"
 #include "simulate/trace/arrivals.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "simulate/product/object_masks.h"
 #include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
@@ -50,6 +49,10 @@ void for_each_run(std::span<const std::uint16_t> ids, Visit visit) {
         to = end_of_run(ids, from);
         if (ids[from] != 0) visit(ids[from], static_cast<int>(from), static_cast<int>(to));
     }
+}
+
+bool has_azimuths(const Sonar& sonar, const PingLabels& labels) {
+    return std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
 }
 
 BinBox bins_of(const ObjectInPing& visible) {
@@ -149,24 +152,30 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
     }
 }
 
-/// Compares objects and their shadows with their surroundings.
-class Contrasts {
-  public:
-    Contrasts(const LevelMap& map, std::span<const std::uint8_t> is_background)
-        : map_(map), is_background_(is_background) {}
+/// A mask while its runs are appended.
+struct GrowingMask {
+    ObjectMask mask;
+    std::size_t end = 0;  ///< end of its last run
 
-    void add_to(ObjectInPing& visible) const {
-        const auto id = static_cast<std::uint16_t>(visible.id);
-        visible.contrast_db = contrast_db(map_, map_.object, id, bins_of(visible), is_background_);
-        if (!visible.shadow.is_empty()) {
-            visible.shadow_contrast_db =
-                contrast_db(map_, map_.shadow, id, visible.shadow, is_background_);
+    void add(std::size_t from, std::size_t to, int height) {
+        const auto h = static_cast<std::size_t>(height);
+        const int left = static_cast<int>(from / h);
+        const int right = static_cast<int>((to - 1) / h) + 1;
+        const bool spans = right - left > 1;
+        const int top = spans ? 0 : static_cast<int>(from % h);
+        const int bottom = spans ? height : static_cast<int>((to - 1) % h) + 1;
+        if (mask.area == 0) {
+            mask.left = left;
+            mask.top = top;
         }
+        mask.right = right;
+        mask.top = std::min(mask.top, top);
+        mask.bottom = std::max(mask.bottom, bottom);
+        mask.area += to - from;
+        mask.runs.push_back(static_cast<std::uint32_t>(from - end));
+        mask.runs.push_back(static_cast<std::uint32_t>(to - from));
+        end = to;
     }
-
-  private:
-    LevelMap map_;
-    std::span<const std::uint8_t> is_background_;  ///< indexed by id
 };
 
 }  // namespace
@@ -186,13 +195,12 @@ std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects) {
 }
 
 LevelMap level_map(const Sonar& sonar, const PingLabels& labels, const Ping& ping) {
-    const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
     return {.lines = labels.beams,
             .bins = labels.range_bins,
             .object = labels.facts(),
             .shadow = labels.object_shadow,
             .level = ping.intensity,
-            .full_turn = fan && is_full_turn(sonar.settings.view),
+            .full_turn = has_azimuths(sonar, labels) && is_full_turn(sonar.settings.view),
             .levels_by_bin = true};
 }
 
@@ -202,23 +210,22 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     std::vector<ObjectInPing> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
     const std::vector<std::uint8_t> is_background = background_ids(objects);
-    const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
+    const bool fan = has_azimuths(sonar, labels);
     const LevelMap map = level_map(sonar, labels, ping);
-    const auto middle = [](const std::vector<double>& edges, int k) {
-        return 0.5 * (edges[k] + edges[k + 1]);
+    const auto azimuth_of = [&](int beam) {
+        return 0.5 * (sonar.azimuth_edges_rad[beam] + sonar.azimuth_edges_rad[beam + 1]);
     };
     std::vector<double> ranges_m(labels.range_bins);
     for (int i = 0; i < labels.range_bins; ++i)
-        ranges_m[i] = middle(sonar.range_edges_m, i);
+        ranges_m[i] = sonar.middle_m(i);
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
-        const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;
+        const double azimuth_rad = fan ? azimuth_of(j) : 0.0;
         // In a full turn, the azimuth nearest to that of the object's first beam.
         const auto near_first = [&](int first) {
             if (!map.full_turn) return azimuth_rad;
             const double turn = 2.0 * pi;
-            const double from = middle(sonar.azimuth_edges_rad, first);
-            return azimuth_rad + turn * std::round((from - azimuth_rad) / turn);
+            return azimuth_rad + turn * std::round((azimuth_of(first) - azimuth_rad) / turn);
         };
         const auto own = std::span(labels.facts()).subspan(begin, labels.range_bins);
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
@@ -229,7 +236,6 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const Contrasts contrasts(map, is_background);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> visible;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -243,10 +249,41 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         if (map.full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
         object.surrounding_level = level_around(object, map);
         object.box_sensor_m = boxes[k];
-        contrasts.add_to(object);
+        const auto id = static_cast<std::uint16_t>(object.id);
+        object.contrast_db = contrast_db(map, map.object, id, bins_of(object), is_background);
+        if (!object.shadow.is_empty()) {
+            object.shadow_contrast_db =
+                contrast_db(map, map.shadow, id, object.shadow, is_background);
+        }
         visible.push_back(object);
     }
     return visible;
+}
+
+std::vector<ObjectMask> object_masks(std::span<const std::uint16_t> ids, int height) {
+    std::vector<GrowingMask> growing;
+    std::vector<std::uint32_t> place_of_id;  // 1 + index into `growing`
+    for (std::size_t from = 0, to = 0; from < ids.size(); from = to) {
+        const std::uint16_t id = ids[from];
+        to = end_of_run(ids, from);
+        if (id == 0) continue;
+        if (place_of_id.size() <= id) place_of_id.resize(id + std::size_t{1}, 0);
+        if (place_of_id[id] == 0) {
+            growing.emplace_back().mask.id = id;
+            place_of_id[id] = static_cast<std::uint32_t>(growing.size());
+        }
+        growing[place_of_id[id] - 1].add(from, to, height);
+    }
+    std::vector<ObjectMask> masks;
+    masks.reserve(growing.size());
+    for (const std::uint32_t place : place_of_id) {
+        if (place == 0) continue;
+        GrowingMask& one = growing[place - 1];
+        if (one.end < ids.size())
+            one.mask.runs.push_back(static_cast<std::uint32_t>(ids.size() - one.end));
+        masks.push_back(std::move(one.mask));
+    }
+    return masks;
 }
 
 }  // namespace sonarsim

@@ -1,9 +1,7 @@
-#include "simulate/reference/energy_reference.h"
-
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "simulate/reference/reference_cast.h"
+#include "simulate/reference/reference.h"
 #include "simulate/trace/apply_maps.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/target_surface.h"

@@ -56,8 +56,13 @@ SumsOfCasts sums_of_casts(const std::vector<CastSums>& casts, std::size_t bin) {
     return sums;
 }
 
-/// The sum over scored bins of what `bin_value` gives, by the sum of the image there; 0 for 0 / 0,
-/// and 1 for other divisions by 0.
+/// a / b, with 0 for 0 / 0 and 1 for other divisions by 0.
+double share(double a, double b) {
+    if (b > 0.0) return a / b;
+    return a > 0.0 ? 1.0 : 0.0;
+}
+
+/// The sum over scored bins of what `bin_value` gives, as a share() of the sum of the image there.
 template <class BinValue>
 double relative(const Reference& reference, const BinValue& bin_value) {
     double sum = 0.0;
@@ -68,8 +73,7 @@ double relative(const Reference& reference, const BinValue& bin_value) {
         sum += bin_value(k, all);
         image += all.value();
     }
-    if (image > 0.0) return sum / image;
-    return sum > 0.0 ? 1.0 : 0.0;
+    return share(sum, image);
 }
 
 /// A cast differs from the mean of n by sqrt(n - 1) times the deviation of this mean.
@@ -141,12 +145,6 @@ struct Total {
     std::uint64_t rays = 0;
     Reference reference;
 };
-
-/// a / b, with 0 for 0 / 0 and 1 for other divisions by 0.
-double share(double a, double b) {
-    if (b > 0.0) return a / b;
-    return a > 0.0 ? 1.0 : 0.0;
-}
 
 }  // namespace
 

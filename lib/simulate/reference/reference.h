@@ -7,6 +7,7 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
+#include "simulate/ping/sonar.h"
 #include "simulate/reference/reference_cast.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/engine.h"
@@ -83,5 +84,15 @@ struct ImageError {
 /// error; against a dark truth any echo is an error of 1.
 ImageError image_error(std::span<const float> image, std::span<const float> truth,
                        std::span<const std::uint8_t> scored = {});
+
+/// The ground truth of the calibrated model, where energies add: its expected image, without
+/// speckle and noise, from single points of the surface, each with the area that it represents. The
+/// number of points grows until the image has settled. Casts rays as cast_reference() does.
+/// `settings` must be of a calibrated sonar. Its targets are sampled as in a ping, since points of
+/// their flat triangles would be another surface; so errors of targets do not show. Sound through
+/// thin walls continues from the points as it does from samples.
+Reference cast_energy_reference(const Caster& caster, const Scene& scene,
+                                const PingSettings& settings, const Pose& T_world_sensor,
+                                const ReferenceGoal& goal);
 
 }  // namespace sonarsim

@@ -1,5 +1,3 @@
-#include "simulate/reference/surface_points.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "input/scene/copies.h"
+#include "simulate/reference/reference_cast.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,6 @@
 #include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

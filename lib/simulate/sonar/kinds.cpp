@@ -5,7 +5,7 @@
 
 namespace sonarsim {
 
-// Each is defined in the file of its name.
+// Each is defined in the file of its name, the first two in fans.cpp.
 KindOfSonar imaging_kind();
 KindOfSonar profiling_kind();
 KindOfSonar sidescan_kind();
@@ -47,6 +47,27 @@ SonarKeyTable sonar_keys() {
         return all;
     }();
     return keys;
+}
+
+std::vector<double> edges(double low, double high, int bins) {
+    std::vector<double> out(bins + 1);
+    for (int i = 0; i < bins; ++i)
+        out[i] = low + (high - low) * i / bins;
+    out[bins] = high;
+    return out;
+}
+
+void add_azimuth(Sonar& sonar) {
+    const double half = 0.5 * sonar.settings.view.azimuth_rad;
+    std::vector<double>& borders = sonar.azimuth_edges_rad;
+    borders = edges(-half, half, sonar.settings.view.beams);
+    sonar.beam_azimuths_rad.clear();
+    for (std::size_t j = 0; j + 1 < borders.size(); ++j)
+        sonar.beam_azimuths_rad.push_back(0.5 * (borders[j] + borders[j + 1]));
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
 }  // namespace sonarsim

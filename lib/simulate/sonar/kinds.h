@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -70,7 +71,7 @@ struct KindOfSonar {
     bool range_noise_fades = true;  ///< echoes that range noise delays are weaker, Eq. 8
     bool has_images = false;        ///< a ping is an image: range by azimuth
     RecordShape record = {};
-    /// Completes the sonar of common_sonar(); null if nothing is left to do.
+    /// Completes the sonar of make_sonar(); null if nothing is left to do.
     void (*finish)(Sonar& sonar) = nullptr;
     /// Adds the measured values of a ping to its metadata, in addition to the altitude; null for a
     /// sonar that measures nothing.
@@ -90,5 +91,16 @@ SonarConfig default_sonar(SonarKind kind);
 
 /// The keys of all kinds, for load_mission() and resolved_yaml().
 SonarKeyTable sonar_keys();
+
+// What several kinds share.
+
+/// `bins` + 1 equally spaced values from `low` to `high`, both exact.
+std::vector<double> edges(double low, double high, int bins);
+
+/// The azimuth edges of a fan of equal beams.
+void add_azimuth(Sonar& sonar);
+
+/// For metadata: an absent value is null.
+nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 }  // namespace sonarsim

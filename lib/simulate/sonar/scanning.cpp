@@ -1,6 +1,5 @@
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

@@ -5,7 +5,6 @@
 #include "simulate/product/picture.h"
 #include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/setup.h"
 
 namespace sonarsim {
 

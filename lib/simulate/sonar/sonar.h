@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "input/mission/mission.h"
 #include "simulate/ping/sonar.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/visibility/engine.h"
+#include "simulate/visibility/make_engine.h"
 
 namespace sonarsim {
 
@@ -72,5 +75,17 @@ std::size_t stage_count(const Sonar& sonar);
 /// itself. A term that the sonar does not use changes nothing.
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
                               const PingKey& key);
+
+/// The settings of a mission's `engine` and `octree` keys. For `auto` see also
+/// simulate/assembly/assemble.h.
+EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
+EngineSettings engine_settings(const Mission& mission);
+
+/// The distance from a sonar straight down to the scene, m. Nothing if no surface is below.
+std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor);
+
+/// The measured values for the metadata of a ping: altitude_m() and the values of the sonar's kind.
+/// An absent value is null; the result is null for kinds that measure nothing.
+nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine);
 
 }  // namespace sonarsim

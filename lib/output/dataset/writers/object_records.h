@@ -10,7 +10,6 @@
 #include "output/dataset/writer.h"
 #include "simulate/labels/silhouette.h"
 #include "simulate/product/contrast.h"
-#include "simulate/product/object_masks.h"
 #include "simulate/product/object_table.h"
 
 namespace sonarsim {

@@ -7,7 +7,7 @@
 
 #include "output/dataset/annotated_objects.h"
 #include "output/dataset/writer.h"
-#include "simulate/sonar/setup.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

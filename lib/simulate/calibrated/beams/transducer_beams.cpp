@@ -7,7 +7,7 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/filtered_noise.h"
-#include "simulate/calibrated/signal/near_field.h"
+#include "simulate/calibrated/signal/line_array.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

@@ -9,7 +9,6 @@
 #include "simulate/calibrated/equation/water.h"
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
-#include "simulate/calibrated/signal/near_field.h"
 #include "simulate/calibrated/signal/range_response.h"
 
 namespace sonarsim {

@@ -1,4 +1,4 @@
-#include "simulate/calibrated/equation/piece_strengths.h"
+#include "simulate/calibrated/equation/patches.h"
 
 namespace sonarsim {
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "simulate/calibrated/equation/instrument_levels.h"
-#include "simulate/calibrated/equation/piece_strengths.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/visible_water_surface.h"
 

@@ -1,9 +1,7 @@
-#include "simulate/calibrated/equation/wind_surface.h"
-
 #include <algorithm>
 
-#include "core/elementary.h"
 #include "core/units.h"
+#include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {

@@ -1,11 +1,10 @@
-#include "simulate/calibrated/receiver/detected_sample.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "core/elementary.h"
 #include "core/lanes.h"
+#include "simulate/calibrated/receiver/receiver_chain.h"
 #include "simulate/calibrated/signal/normals.h"
 
 namespace sonarsim {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <complex>
+#include <cstddef>
+#include <vector>
 
 namespace sonarsim {
 
@@ -31,5 +34,46 @@ double line_pattern(const LineArray& array, double u);
 /// The array whose highest side lobe is `side_lobe_db` (-42 to -13.3) below its axis and whose
 /// power is halved at half of `width_rad` off it.
 LineArray line_array(double width_rad, double side_lobe_db);
+
+/// The amplitude of a line array that is not focused, at the sine u of the angle off its axis and
+/// the range r:
+///
+///     integral of w(x) exp(-2 pi i (x u L / lambda - x^2 L^2 / (2 r lambda))) dx
+///
+/// with x = position / L (Fresnel's approximation). Far beyond L^2 / lambda it is line_pattern();
+/// at shorter range the beam is as wide as the array. `curvature` is 1 / r.
+std::complex<double> unfocused_pattern(const LineArray& array, double u, double wavelength_m,
+                                       double curvature_per_m);
+
+/// A table of the square of unfocused_pattern(), the two-way pattern.
+struct UnfocusedBeam {
+    /// The value at the sine u of the angle off the axis and at a range; at ranges below the
+    /// array's length it is that at its length. `u` must lie within the table.
+    std::complex<float> at(float u, float range_m) const;
+
+    float greatest_sine = 1.0F;  ///< at the ends of the table
+    float max_curvature = 0.0F;
+    float sines_per_unit = 0.0F, curvatures_per_unit = 0.0F;
+    int sines = 0, curvatures = 0;            ///< numbers of entries, both ends included
+    std::vector<std::complex<float>> values;  ///< [curvatures, sines]
+};
+
+/// The table from `range_min_m` on, for sines up to `greatest_sine`.
+UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double range_min_m,
+                             double greatest_sine);
+
+inline std::complex<float> UnfocusedBeam::at(float u, float range_m) const {
+    const float across = (u + greatest_sine) * sines_per_unit;
+    const float up = std::min(1.0F / range_m, max_curvature) * curvatures_per_unit;
+    const int i = std::min(static_cast<int>(std::max(across, 0.0F)), sines - 2);
+    const int j = std::min(static_cast<int>(up), curvatures - 2);
+    const float s = across - static_cast<float>(i);
+    const float t = up - static_cast<float>(j);
+    const std::complex<float>* const here =
+        values.data() + static_cast<std::ptrdiff_t>(j) * sines + i;
+    const std::complex<float> low = here[0] + s * (here[1] - here[0]);
+    const std::complex<float> high = here[sines] + s * (here[sines + 1] - here[sines]);
+    return low + t * (high - low);
+}
 
 }  // namespace sonarsim

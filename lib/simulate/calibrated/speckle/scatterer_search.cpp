@@ -1,5 +1,3 @@
-#include "simulate/calibrated/speckle/scatterer_search.h"
-
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -3,6 +3,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
 
 #include "core/pose.h"
 #include "core/random.h"
@@ -53,5 +56,32 @@ struct Scatterers {
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out);
+
+/// Finds the scatterers that lie on samples and hands them to `use`, a block at a time. In the
+/// projection along the axis of the world that a sample faces most, every cell has one point, drawn
+/// from its number and the key. The sample that covers the point holds the scatterer, so a surface
+/// has the same scatterers however it is cut into samples. `shape`: that of the view.
+void find_scatterers(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
+                     const SonarInScene& sonar, PhiloxKey key, Scatterers& block,
+                     const std::function<void(const Scatterers&)>& use);
+
+/// Points with amplitudes. Their areas are cross-sections, and they face the sonar.
+struct PointScatterers {
+    std::vector<Sample> points;
+    std::vector<float> turns;  ///< the phase of each of its own, in turns
+};
+
+/// Joins the pieces of targets to scatterers, each with one phase.
+///
+/// The pieces of one smooth surface of a target that lie within a cell make one scatterer. The
+/// cells are counted from the middle of the highlight, where facets face the sonar. So a highlight
+/// smaller than a cell is one scatterer, at its place, with the highlight's energy, and does not
+/// flicker as the sonar moves. The scatterers of a larger highlight, and those of other surface,
+/// have exponential strengths; the transition is gradual. A scatterer keeps its phase and its draw
+/// from ping to ping.
+///
+/// `pieces`: surface after surface. `cell`: its size.
+PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
+                             const PointLimits& cell, const Scattering& scattering, PhiloxKey key);
 
 }  // namespace sonarsim

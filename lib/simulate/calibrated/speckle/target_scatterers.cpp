@@ -1,5 +1,3 @@
-#include "simulate/calibrated/speckle/target_scatterers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "core/elementary.h"
+#include "simulate/calibrated/speckle/scatterers.h"
 #include "simulate/trace/target_surface.h"
 
 namespace sonarsim {
