@@ -1,4 +1,4 @@
-#include "simulate/product/sidescan_row.h"
+#include "simulate/product/sidescan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"

@@ -19,7 +19,6 @@ namespace {
 // For speckle that is drawn for each ping. The error of the tank's expected image is then 1.8 %.
 constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
-/// The steps that form an image, and their common data.
 class ImageFormer {
   public:
     ImageFormer(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
@@ -99,7 +98,6 @@ class ImageFormer {
         if (model_.sediment) add_sediment(grid);
     }
 
-    /// Adds the powers of the pieces of samples.
     void add_pieces(SampleKind kind, std::span<const Sample> samples, const PointLimits& limits,
                     EchoGrid& grid) {
         PatchBlock block;
@@ -161,7 +159,6 @@ class ImageFormer {
         grid.add(powers);
     }
 
-    /// Adds the echoes of the sediment below sea beds.
     void add_sediment(EchoGrid& grid) {
         const SedimentScattering& sediment = *model_.sediment;
         std::vector<Sample> beds;
@@ -204,7 +201,6 @@ class ImageFormer {
         });
     }
 
-    /// Adds the amplitudes of samples that have phases of their own.
     void add_own_phases(EchoGrid& grid) {
         for (const KindOfSample& kind : kinds_of_samples) {
             if (kind.phase != PhaseSource::own) continue;
@@ -219,7 +215,6 @@ class ImageFormer {
         }
     }
 
-    /// The scatterers of targets.
     PointScatterers joined(std::span<const Sample> targets) const {
         std::vector<std::pair<std::uint64_t, std::size_t>> by_surface;
         for (std::size_t k = 0; k < targets.size(); ++k) {

@@ -53,7 +53,6 @@ struct CalibratedModel final : EchoModel {
     std::optional<SedimentScattering> sediment;
     Texture texture;
 
-    /// True if the model has the data that depend on this scene.
     bool is_prepared_for(const Scene& scene) const;
     std::shared_ptr<const CalibratedModel> prepared_for(const Scene& scene) const;
 

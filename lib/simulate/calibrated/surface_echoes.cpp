@@ -85,7 +85,6 @@ class NearObjects {
 // near to those of half a bin as with 2.
 constexpr float max_depth_in_bins = 8.0F;
 
-/// The greatest size of a patch of labels.
 PointLimits label_limits(const CalibratedModel& model) {
     PointLimits limits = model.limits;
     limits.depth_m = max_depth_in_bins * model.equation.bin_m;
@@ -111,7 +110,6 @@ class SurfaceEchoFinder {
         if (!model.beams->cones.exist()) received_.resize(samples_.size());
     }
 
-    /// Adds samples of one kind.
     void add(SampleKind kind, std::span<const Sample> samples) {
         if (kind == SampleKind::behind_wall) blocks_.begin_behind_walls();
         subdivide(samples, taper_shape(kind, shape_), limits_, pieces_, [&](PatchBlock& pieces) {

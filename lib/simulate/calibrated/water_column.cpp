@@ -61,31 +61,7 @@ int steps_over(double extent, double step) {
     return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
 }
 
-}  // namespace
-
-WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument) {
-    WaterConfig out = water;
-    if (out.content == WaterContent::automatic) out.content = instrument.usual_water;
-    return out;
-}
-
-double suspended_strength(double mg_per_l, double diameter_um, double wavenumber) {
-    constexpr double quartz_kg_m3 = 2650.0;
-    const double radius_m = 0.5e-6 * diameter_um;
-    const double form = form_function(wavenumber * radius_m);
-    const double kg_m3 = 1e-3 * mg_per_l;
-    return 3.0 * kg_m3 * form * form / (16.0 * pi * quartz_kg_m3 * radius_m);
-}
-
-double volume_strength(const WaterConfig& water, double frequency_hz) {
-    Content content = content_of(water.content);
-    // A given level includes the suspended particles that are usual for `content`.
-    if (water.scattering_db_per_m3) content = {power_of_db(*water.scattering_db_per_m3), 0.0};
-    const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
-    constexpr double grain_um = 50.0;  // diameter of silt
-    return content.strength + suspended_strength(content.suspended_mg_l, grain_um, wavenumber);
-}
-
+/// The directions in which surface is traced, at most `step_rad` of azimuth apart.
 EqualDirections traced_directions(const View& view, double step_rad) {
     // Equal steps of the sine to the plane across an axis, and of the turn about that axis, have
     // equal solid angles. The axis is x in a cone, else z.
@@ -114,6 +90,31 @@ EqualDirections traced_directions(const View& view, double step_rad) {
         }
     }
     return out;
+}
+
+}  // namespace
+
+WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument) {
+    WaterConfig out = water;
+    if (out.content == WaterContent::automatic) out.content = instrument.usual_water;
+    return out;
+}
+
+double suspended_strength(double mg_per_l, double diameter_um, double wavenumber) {
+    constexpr double quartz_kg_m3 = 2650.0;
+    const double radius_m = 0.5e-6 * diameter_um;
+    const double form = form_function(wavenumber * radius_m);
+    const double kg_m3 = 1e-3 * mg_per_l;
+    return 3.0 * kg_m3 * form * form / (16.0 * pi * quartz_kg_m3 * radius_m);
+}
+
+double volume_strength(const WaterConfig& water, double frequency_hz) {
+    Content content = content_of(water.content);
+    // A given level includes the suspended particles that are usual for `content`.
+    if (water.scattering_db_per_m3) content = {power_of_db(*water.scattering_db_per_m3), 0.0};
+    const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
+    constexpr double grain_um = 50.0;  // diameter of silt
+    return content.strength + suspended_strength(content.suspended_mg_l, grain_um, wavenumber);
 }
 
 std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,

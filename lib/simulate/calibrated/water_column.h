@@ -38,9 +38,6 @@ struct EqualDirections {
     float each_sr = 0.0F;
 };
 
-/// The directions in which surface is traced, at most `step_rad` of azimuth apart.
-EqualDirections traced_directions(const View& view, double step_rad);
-
 /// The water's volume scattering, ready for the pings of a sonar; section 3 of docs/calibrated.md.
 struct WaterColumn {
     struct Layer {

@@ -126,7 +126,6 @@ class ReceivedWater {
         float share;
     };
 
-    /// The channels that receive sound from a direction.
     std::array<ChannelShare, 2> shares_of(const Eigen::Vector3f& direction) {
         std::array<ChannelShare, 2> out{};
         if (sines_) {

@@ -45,7 +45,6 @@ Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape)
     return {place * (1.0F + step_behind), place.normalized()};
 }
 
-/// Follows the sight lines of a ping.
 class LineTracer {
   public:
     LineTracer(const LineWidth& width, const SceneObjects& objects,

@@ -28,7 +28,6 @@ struct Surface {
     auto operator<=>(const Surface&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
-/// The sums of a ping's echoes by surface.
 class SurfaceSums {
   public:
     SurfaceSums(const View& view, const SceneObjects& objects, bool by_second)
@@ -267,7 +266,6 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
     return labels;
 }
 
-/// Takes the labels of a beam.
 void copy_beam(const PingLabels& from, int beam, const LabelRequest& request, PingLabels& to) {
     for_each_label(request, [&](auto member, bool wanted, auto) {
         if (!wanted) return;

@@ -13,7 +13,6 @@
 
 namespace sonarsim {
 
-/// The labels to find for the bins of a ping.
 struct LabelRequest {
     bool objects = false;
     /// Needs objects: bins without an object or its shadow may have none, not even background.

@@ -63,7 +63,6 @@ class ElevationFinder : public BinMoments<2> {
   public:
     using BinMoments::BinMoments;
 
-    /// Begins the next patch.
     void begin(const EchoPatch& patch, const RangePath& path) {
         const Eigen::Vector3f axis = Eigen::Vector3f::UnitZ();
         rise_m_ = patch.position.dot(axis);
@@ -71,7 +70,6 @@ class ElevationFinder : public BinMoments<2> {
         variance_at_range_ = variance_at_one_range(patch);
     }
 
-    /// Computes these bins of the patch.
     void cover(const CoveredBins& covered) {
         const auto sine_at = [&](int k) {
             return std::clamp((rise_m_ + slope_ * covered.way[k]) / covered.range_m[k], -1.0, 1.0);
@@ -104,7 +102,7 @@ class ElevationFinder : public BinMoments<2> {
     }
 
   private:
-    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;  ///< of this patch
+    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;  ///< by patch
 };
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
@@ -150,7 +148,6 @@ class HeightFinder : public BinMoments<1> {
         return true;
     }
 
-    /// Computes these bins of the patch.
     void cover(const CoveredBins& covered) {
         if (is_bottom_) return moment_[0].fill(0.0);
         const auto height_at = [&](int k) {
@@ -187,7 +184,6 @@ class HeightFinder : public BinMoments<1> {
     double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0;
 };
 
-/// The finders that a request needs.
 struct PatchFinders {
     std::optional<ElevationFinder> elevation;
     std::optional<HeightFinder> height;

@@ -50,7 +50,6 @@ inline double way_to(const RangePath& path, double r) {
     return std::clamp(more / (path.range_m + root), -path.depth_m, path.depth_m);
 }
 
-/// Successive bins that a footprint covers.
 struct CoveredBins {
     static constexpr int at_once = 16;
     /// Bins are computed in vectors of this many. Beyond the last one the share is 0.
@@ -115,7 +114,6 @@ class BinMoments {
             all.resize(static_cast<std::size_t>(rows) * stride_);
     }
 
-    /// Adds an echo of the patch to these bins of a row.
     void add(std::uint32_t row, double echo, const CoveredBins& covered) {
         Reached& reached = reached_[row];
         reached.first = std::min(reached.first, covered.first);
@@ -151,7 +149,7 @@ class BinMoments {
         reached_[row] = {bins_, 0};
     }
 
-    /// Of this patch, by covered bin.
+    /// By covered bin of the patch.
     std::array<std::array<double, CoveredBins::at_once>, moments> moment_{};
 
   private:

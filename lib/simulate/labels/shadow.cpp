@@ -69,7 +69,6 @@ EchoSums sums_of(std::span<const HiddenPiece> pieces, const View& view) {
     return sums;
 }
 
-/// All sources, each with its number for a key.
 std::vector<KeyedSource> sources_of(const EchoSums& sums) {
     std::vector<KeyedSource> sources;
     for (std::uint32_t k = 0; k < sums.sources(); ++k)

@@ -22,7 +22,6 @@ constexpr float max_parts_by_bins = 128.0F;
 // 3 instead of 1 to 4 %, for 1.6 instead of 1.1 times the time.
 constexpr float bins_of_part = 4.0F;
 
-/// The sight line behind a place of a sample.
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
                       int beam) {
     const auto& [range, direction] = place;

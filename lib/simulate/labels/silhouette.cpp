@@ -147,7 +147,6 @@ void fill_hulls(const MaskFrame& frame, MaskWindow& shape) {
     }
 }
 
-/// The reach of gaps that are closed.
 CellReach closing_reach(const ResolutionCell& cell) {
     return CellReach({std::max(cell.range_bins, 2.0), std::max(cell.beams, 2.0)});
 }

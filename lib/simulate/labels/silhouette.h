@@ -20,7 +20,6 @@ struct MaskFrame {
     double first_bin = 0.0;  ///< bins from where the lines of a fan meet to the first
 };
 
-/// The frame of a ping's image.
 MaskFrame frame_of(const View& view, const ResolutionCell& cell);
 
 /// Bins on either side of the middle of a cell.

@@ -69,7 +69,6 @@ inline PieceCounts one_piece_per_cell(float u_m, float v_m, float cell_m, float 
     return {.u = std::max(u * shrink, 1.0F), .v = std::max(v * shrink, 1.0F)};
 }
 
-/// The multipath echoes of all beams.
 struct MultipathEchoes {
     Echoes echoes;                          ///< sorted by beam
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `echoes`

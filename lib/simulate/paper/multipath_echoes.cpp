@@ -24,7 +24,6 @@ struct Piece {
     CellName cell;
 };
 
-/// A footprint cut into u by v equal pieces.
 struct Cut {
     int u = 1;
     int v = 1;
@@ -87,7 +86,6 @@ void add_pieces(const BouncePath& b, std::uint32_t path, const Sample& sample, c
     out.resize(k);
 }
 
-/// The pieces as arrays, sorted by beam.
 MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool cells) {
     std::vector<std::uint32_t> beam(pieces.size());
     std::ranges::transform(pieces, beam.begin(), &Piece::beam);

@@ -42,7 +42,6 @@ void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
     }
 }
 
-/// The draws of normal_pair() for each word.
 template <std::size_t count>
 void draw_pairs(const std::array<std::uint32_t, count>& words, float* __restrict first,
                 float* __restrict second) {

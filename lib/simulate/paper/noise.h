@@ -47,7 +47,6 @@ struct RowAreas {
     void add(const BinSums& beam);
 };
 
-/// The samples that are seen at normal incidence.
 std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine);
 
 /// If the share at normal incidence reaches the threshold, the row I of `image` [rows, columns]

@@ -12,10 +12,8 @@ namespace sonarsim {
 /// The least quality of a sounding in a map.
 inline constexpr double map_quality = 0.5;
 
-/// The largest number of cells of a map.
 inline constexpr double max_map_cells = 1 << 24;
 
-/// The ground that the soundings of a map cover.
 struct SoundingBounds {
     Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< world x, y, m
     Eigen::Vector2d max = Eigen::Vector2d::Zero();

@@ -100,7 +100,6 @@ struct Rise {
     double before, half_way;
 };
 
-/// The first rise from bin `begin` on.
 std::optional<Rise> first_rise(const Logarithms& logarithms, int begin, int window, int bins) {
     const auto is_bottom = [&](int i, int bins_each) {
         return logarithms.rise(i, bins_each) >= Logarithms::min_deviations;

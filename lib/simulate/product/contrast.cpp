@@ -31,7 +31,6 @@ std::size_t first_bin_of(const LevelMap& map, int line, const BinBox& box) {
     return static_cast<std::size_t>(map.line_at(line)) * map.bins + box.first_bin;
 }
 
-/// The marked bins of a box, range by range.
 std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std::uint16_t> marks,
                                        std::uint16_t id, const BinBox& box) {
     std::vector<RangeLevels> ranges(static_cast<std::size_t>(box.last_bin - box.first_bin) + 1);
@@ -48,7 +47,6 @@ std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std:
     return ranges;
 }
 
-/// Adds the bins around those that are marked.
 void add_surroundings(const LevelMap& map, const BinBox& box,
                       std::span<const std::uint8_t> is_background,
                       std::vector<RangeLevels>& ranges) {

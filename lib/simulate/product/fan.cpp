@@ -51,7 +51,6 @@ int covered_points(const View& view, const FanFrame& frame, int column, int row)
     return inside;
 }
 
-/// True if an edge of the sector may cross the pixel.
 bool is_near_edge(const View& view, const FanFrame& frame, const FanPlace& place) {
     const double aside = std::fabs(0.5 * view.azimuth_rad - std::fabs(place.azimuth_rad));
     const bool full_turn = view.azimuth_rad >= 2.0 * pi;

@@ -70,7 +70,6 @@ struct FanFrame {
 /// pixel per range bin, at most 1024.
 FanFrame fan_frame(const Sonar& sonar, int width_px = 0);
 
-/// The place of a pixel's centre in the fan.
 struct FanPlace {
     double x_m;  ///< ahead
     double y_m;  ///< to port
@@ -97,7 +96,6 @@ struct FanMap {
         std::uint32_t pixel;  ///< index among the pixels of its ring
         float covered;        ///< the share inside
     };
-    /// A run of pixels in a row.
     struct Run {
         std::int32_t index;  ///< first pixel in the picture, row by row
         std::int32_t count;
@@ -181,12 +179,10 @@ class LastResults {
 /// The fans that the variants of a mission share.
 class FanStore {
   public:
-    /// make_fan_map(sonar).
     std::shared_ptr<const FanMap> map(const Sonar& sonar) {
         return maps_.get(borders_of(sonar),
                          [&] { return std::make_shared<const FanMap>(make_fan_map(sonar)); });
     }
-    /// make_fan_bins(sonar).
     std::shared_ptr<const FanBins> bins(const Sonar& sonar) {
         return bins_.get(borders_of(sonar),
                          [&] { return std::make_shared<const FanBins>(make_fan_bins(sonar)); });

@@ -10,7 +10,6 @@ namespace sonarsim {
 
 namespace {
 
-/// A running sum over the bins of an object.
 struct BinTotals {
     double level = 0.0;
     double range_m = 0.0;
@@ -152,7 +151,6 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
     }
 }
 
-/// A mask while its runs are appended.
 struct GrowingMask {
     ObjectMask mask;
     std::size_t end = 0;  ///< end of its last run

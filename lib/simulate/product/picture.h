@@ -36,7 +36,6 @@ enum class Align { left, middle, right };
 /// the named end of the text at x.
 void write(Picture& picture, int x, int y, std::string_view text, Align align, Rgb colour);
 
-/// The width of a text in pixels.
 int text_width(std::string_view text);
 
 /// The marks of an axis over [low, high]: about `wanted` multiples of 1, 2 or 5 times a power of

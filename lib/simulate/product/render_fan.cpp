@@ -13,10 +13,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The number of pixels that are worked out at a time.
 constexpr std::size_t fan_block = 256;
 
-/// An image with a margin of bins on all sides.
 struct PaddedImage {
     std::ptrdiff_t width;
     std::unique_ptr<float[]> values;
@@ -129,7 +127,6 @@ std::uint8_t grey_of(float sum, float scale) {
     return static_cast<std::uint8_t>(static_cast<int>(255.0F * std::sqrt(share) + 0.5F));
 }
 
-/// Draws the pixels of a ring.
 void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& bins, float scale,
                std::vector<std::uint8_t>& picture) {
     const bool three_by_four = map.range_kernel.taps == 3 && ring.beam_kernel.taps == 4;

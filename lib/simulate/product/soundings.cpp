@@ -99,7 +99,6 @@ Eigen::Vector3d on_axis(const PingMotion& motion, ViewShape shape, double azimut
     return place;
 }
 
-/// Cumulative sums of a beam about its mean.
 class Contrast {
   public:
     explicit Contrast(std::span<const double> beam) : sums_(beam.size() + 1) {

@@ -94,7 +94,6 @@ double noise_by(double noise, std::uint64_t rays, std::uint64_t later) {
     return noise * root * std::sqrt(root);
 }
 
-/// A reference in progress.
 struct Total {
     explicit Total(const View& view)
         : bins(static_cast<std::size_t>(view.range_bins) * view.beams),

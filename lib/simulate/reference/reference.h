@@ -46,7 +46,6 @@ struct ReferenceGoal {
     bool gives_up = false;
 };
 
-/// Result of one cast.
 struct CastResult {
     std::vector<double> echo;     ///< see CastSums
     std::vector<double> weight;   ///< see CastSums

@@ -55,7 +55,6 @@ class PointDensity {
     std::size_t own_shares_ = 0;
 };
 
-/// A cast in progress.
 struct Cast {
     const ReferenceView& looking;
     const RayLayout& layout;
@@ -96,7 +95,6 @@ CellPosition position_in_cell(const PhiloxBlock& shift, std::uint32_t column, st
     return {across - std::floor(across), along - std::floor(along)};
 }
 
-/// The directions of one column, in the sensor frame.
 void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t index,
                        std::vector<Eigen::Vector3f>& directions) {
     const double step = (column.along_max - column.along_min) / cast.layout.count;

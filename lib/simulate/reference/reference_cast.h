@@ -26,7 +26,6 @@ struct SurfaceShare {
     float share;  ///< in proportion to the number of bins that a thin object of its length occupies
 };
 
-/// The corners of the triangle, scene-local.
 std::array<Eigen::Vector3f, 3> corners_of(const Scene& scene, const SurfaceShare& share);
 
 /// The shares of every triangle that may be in view and in range, by ascending facet. A thin object
@@ -40,7 +39,6 @@ std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
 /// corner that sum to at most 1. `start` shifts the sequence.
 Eigen::Vector2d point_of_triangle(std::uint32_t facet, std::uint32_t i, std::uint32_t start);
 
-/// The scene and the view of a reference.
 struct ReferenceView {
     const Caster& caster;
     const Scene& scene;

@@ -12,7 +12,6 @@ namespace sonarsim {
 
 namespace {
 
-/// The half angle of a ball of radius `radius` at `distance`.
 double half_angle(double radius, double distance) {
     return radius < distance ? arcsin(radius / distance) : pi;
 }
@@ -68,7 +67,6 @@ std::vector<CopyInView> copies_in_view(const Scene& scene, const View& view,
     return found;
 }
 
-/// Adds the share of a triangle that may be in view.
 void add_share(const Scene& scene, const View& view, const LocalPose& pose, SurfaceShare share,
                std::vector<SurfaceShare>& shares) {
     std::array<Eigen::Vector3d, 3> corners;

@@ -33,7 +33,6 @@ StripFrame echogram_frame(const SonarConfig& config, int pings) {
     return frame;
 }
 
-/// The depth axis, metres.
 Picture echogram_axis(const SonarConfig& config, const StripFrame& frame) {
     Picture axis(frame.axis_width, frame.height, backdrop);
     const int right = frame.axis_width - 1;
@@ -48,7 +47,6 @@ Picture echogram_axis(const SonarConfig& config, const StripFrame& frame) {
     return axis;
 }
 
-/// A range bin over all pings.
 void echogram_row(std::span<const float> bins, double white, const StripFrame& frame,
                   std::span<Rgb> pixels) {
     const auto full = static_cast<float>(white);

@@ -21,8 +21,8 @@ const std::vector<KindOfSonar>& kinds_of_sonar() {
 
 const KindOfSonar& kind_of(SonarKind kind) {
     const auto& kinds = kinds_of_sonar();
-    const auto found = std::ranges::find_if(
-        kinds, [kind](const KindOfSonar& one) { return one.keys.kind == kind; });
+    const auto kind_in = [](const KindOfSonar& one) { return one.keys.kind; };
+    const auto found = std::ranges::find(kinds, kind, kind_in);
     if (found == kinds.end()) throw std::logic_error("a kind of sonar is not in the table");
     return *found;
 }

@@ -13,7 +13,6 @@
 
 namespace sonarsim {
 
-/// The pictures of the records of all pings.
 enum class RecordPictures {
     none,
     strip,   ///< one, a row or a column per ping
@@ -37,7 +36,6 @@ struct RecordShape {
     /// The record has two sides, port and starboard of the track: XTF and mosaics are made of it.
     bool two_sides = false;
 
-    /// The number of values of a ping.
     std::size_t values(const SonarConfig& config) const;
 };
 
@@ -62,7 +60,6 @@ struct PingView {
     const Ping& ping;
 };
 
-/// The properties of one kind of sonar.
 struct KindOfSonar {
     SonarKeys keys;  ///< its name, its defaults and the keys that a mission may set
     ViewShape shape;
@@ -86,13 +83,12 @@ const KindOfSonar& kind_of(SonarKind kind);
 /// The kind's name in a mission.
 std::string_view name_of(SonarKind kind);
 
-/// The defaults of a kind.
 SonarConfig default_sonar(SonarKind kind);
 
 /// The keys of all kinds, for load_mission() and resolved_yaml().
 SonarKeyTable sonar_keys();
 
-// What several kinds share.
+// Steps that several kinds share.
 
 /// `bins` + 1 equally spaced values from `low` to `high`, both exact.
 std::vector<double> edges(double low, double high, int bins);

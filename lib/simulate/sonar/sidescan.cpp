@@ -1,9 +1,10 @@
+#include "simulate/product/sidescan.h"
+
 #include <cmath>
 
 #include "core/text.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
-#include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
@@ -12,7 +13,7 @@ namespace {
 
 // The waterfall of a side-scan sonar as an operator sees it, in copper tones: a range axis, then a
 // row per ping, the first ping on top, port on the left. It is one pixel wider than the row of the
-// record (sidescan_row.h), for the line at nadir.
+// record (product/sidescan.h), for the line at nadir.
 
 constexpr int axis_height = 22;
 constexpr Rgb nadir_colour{150, 190, 220};

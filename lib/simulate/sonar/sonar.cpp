@@ -156,22 +156,21 @@ void find_targets(std::span<Sonar> sonars, const Scene& scene) {
     }
 }
 
-std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose) {
-    if (!varies_by_ping(mission, sonar.config.name)) return std::nullopt;
-    Sonar drawn = sonar;
+SonarAtPose::SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32_t pose)
+    : own_(sonar) {
+    if (!varies_by_ping(mission, sonar.config.name)) return;
+    Sonar& drawn = drawn_.emplace(sonar);
     draw_for_ping(mission, pose, drawn.config);
     const KindOfSonar& kind = kind_of(drawn.config.kind);
     set_mount(drawn, kind);
     if (drawn.config.noise == sonar.config.noise && drawn.config.streaks == sonar.config.streaks)
-        return drawn;
+        return;
     if (kind.finish) kind.finish(drawn);
     drawn.settings.model = make_echo_model(drawn, kind, mission.water);
-    return drawn;
 }
 
 namespace {
 
-/// The trace of one transmission of a ping.
 TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                     const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
                     const Terms& terms) {
@@ -184,13 +183,7 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
     return traced;
 }
 
-}  // namespace
-
-double group_period_s(const Sonar& sonar, double sound_speed_m_s) {
-    const double period_s = sonar.config.shutter.period_s;
-    return period_s > 0.0 ? period_s : 2.0 * sonar.settings.view.range_max_m / sound_speed_m_s;
-}
-
+/// The group in which each beam of a fan transmits.
 std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams) {
     std::vector<int> groups(beams);
     for (int j = 0; j < beams; ++j) {
@@ -199,6 +192,13 @@ std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams) {
                         : static_cast<int>(std::int64_t{j} * shutter.groups / beams);
     }
     return groups;
+}
+
+}  // namespace
+
+double group_period_s(const Sonar& sonar, double sound_speed_m_s) {
+    const double period_s = sonar.config.shutter.period_s;
+    return period_s > 0.0 ? period_s : 2.0 * sonar.settings.view.range_max_m / sound_speed_m_s;
 }
 
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,

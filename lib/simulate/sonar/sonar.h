@@ -33,16 +33,11 @@ void prepare_for(const Scene& scene, Sonar& sonar);
 /// Without them only the engine samples small and shiny objects.
 void find_targets(std::span<Sonar> sonars, const Scene& scene);
 
-/// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if
-/// `vary` names no key of this sonar.
-std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
-
 /// A sonar at a pose, with the numbers that the mission's `vary` draws for every ping. If `vary`
 /// names no key of this sonar, it is the sonar itself, which must outlive this.
 class SonarAtPose {
   public:
-    SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32_t pose)
-        : own_(sonar), drawn_(drawn_sonar(mission, sonar, pose)) {}
+    SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
     const Sonar& operator*() const { return drawn_ ? *drawn_ : own_; }
     const Sonar* operator->() const { return &**this; }
@@ -55,16 +50,12 @@ class SonarAtPose {
 /// The time from one group of beams to the next, s.
 double group_period_s(const Sonar& sonar, double sound_speed_m_s);
 
-/// The group in which each beam of a fan transmits.
-std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams);
-
 /// Traces a ping from a pose of the vehicle, and its later groups of beams from the vehicle's later
 /// poses. `pose` is the index of the pose on the trajectory; the angle of a turning head depends on
 /// it.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 
-/// Traces a ping and forms its image.
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, const PingKey& key, const Terms& terms = {});
 

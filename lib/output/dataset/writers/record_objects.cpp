@@ -9,7 +9,7 @@
 #include "output/dataset/writers/object_records.h"
 #include "simulate/product/fan.h"
 #include "simulate/product/scan.h"
-#include "simulate/product/sidescan_row.h"
+#include "simulate/product/sidescan.h"
 
 namespace sonarsim {
 

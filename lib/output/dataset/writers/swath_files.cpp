@@ -12,7 +12,7 @@
 #include "output/dataset/writer.h"
 #include "output/format/xtf.h"
 #include "simulate/product/contrast.h"
-#include "simulate/product/mosaic.h"
+#include "simulate/product/sidescan.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {

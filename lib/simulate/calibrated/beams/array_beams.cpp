@@ -126,7 +126,6 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoise* no
     }
 }
 
-/// See array_beams().
 class ArrayBeams final : public Beams {
   public:
     ArrayBeams(const LineArray& array, const BeamSines& sines, const ElementsConfig& errors,

@@ -116,7 +116,6 @@ void load_bins(const float* bins, ComplexLanes& out) {
     _mm256_store_ps(out.im.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1)));
 }
 
-/// The sum of columns, each times its tap.
 ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int count) {
     ComplexLanes sum{};
     for (int t = 0; t < count; ++t) {
@@ -208,7 +207,6 @@ void Beamformer::add_weights(const LineArray& array, double samples,
     unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
 }
 
-/// Finds the columns of each beam and their taps.
 void Beamformer::find_taps(const std::vector<double>& beam_sines) {
     bool on_columns = true;
     for (const double sine : beam_sines) {

@@ -26,7 +26,6 @@ void add_between_bins(float* column, float row, float re, float im) {
     place[3] = std::fma(next, im, place[3]);
 }
 
-/// See transducer_beams().
 class TransducerBeams final : public Beams {
   public:
     TransducerBeams(const BeamConfig& beam, const View& view, double wavelength_m,

@@ -45,7 +45,6 @@ struct AngularTable {
     static constexpr int steps = 1024;
     static constexpr int size = steps + 2;  ///< the last two are the same, for interpolation
 
-    /// The sine of an entry.
     static double sine(int entry) {
         const double root = std::min(1.0, static_cast<double>(entry) / steps);
         return 1.0 - root * root;
@@ -56,7 +55,6 @@ struct AngularTable {
     }
 };
 
-/// The scattering of the materials of a scene.
 struct Scattering {
     std::vector<Backscatter> materials;
     /// [materials, AngularTable::size] at() of sea beds, 0 of other materials; empty: no sea beds.
@@ -67,7 +65,6 @@ struct Scattering {
 Scattering scattering_of(std::span<const Material> materials, double frequency_hz,
                          const Water& water);
 
-/// Appends a material with tables.
 void append(const Backscatter& tabled, Scattering& scattering);
 
 /// The material with `lambert_db` = 10 log mu, power reflection at normal incidence and facets of

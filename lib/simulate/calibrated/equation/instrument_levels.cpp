@@ -61,7 +61,6 @@ double headroom_of_sand_db(const ReceiverConfig& receiver, Aperture aperture) {
                     aperture == Aperture::piston ? max_headroom_below_db : max_headroom_of_sand_db);
 }
 
-/// Sets the levels after TVG.
 void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& water,
                          const View& view, InstrumentLevels& levels) {
     const ReceiverConfig& receiver = instrument.receiver;

@@ -11,7 +11,6 @@
 
 namespace sonarsim {
 
-/// A function of a sine, as a table.
 struct SineTable {
     static constexpr int steps = 2048;
     float from = 0.0F;          ///< the sine of the first entry
@@ -52,7 +51,6 @@ struct SonarEquation {
     SineTable elevation;
 };
 
-/// The echoes of a block of pieces.
 struct PointEchoes {
     int count = 0;  ///< pieces, rounded up to whole vectors; echoes beyond have no power
     PatchBlock::Array<float> range_m;

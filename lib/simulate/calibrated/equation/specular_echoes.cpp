@@ -56,7 +56,6 @@ struct Ends {
     PatchBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
 };
 
-/// A block of pieces that are small enough to be points.
 struct PiecesOfPaths {
     int count = 0;
     Ends points, images;

@@ -14,7 +14,6 @@ namespace sonarsim {
 // The stages of a receiver after its beams and its gain; section 5 of docs/calibrated.md. Each is
 // off by default.
 
-/// The rows of an image in range.
 struct ImageRows {
     double range_min_m = 0.0;
     double bin_m = 1.0;

@@ -29,11 +29,9 @@ class EchoGrid {
     const float* column(int c) const { return values_.data() + c * stride_ + front; }
     std::size_t stride() const { return stride_; }
 
-    /// Adds a grid of the same shape.
     void add(const EchoGrid& more);
     /// The number of cells that hold an echo.
     std::size_t occupied() const;
-    /// Convolves every column with the pulse.
     void convolve_pulse(const RangeTaps& taps);
 
   private:

@@ -86,7 +86,6 @@ std::array<Value, 5> transform_5(const ComplexLanes* in, std::ptrdiff_t step) {
     return {a + be + cd, even1 + odd1, even2 + odd2, even2 - odd2, even1 - odd1};
 }
 
-/// The size without its factors of 2.
 int odd_part(int size) {
     while (size % 2 == 0)
         size /= 2;
@@ -102,7 +101,6 @@ Fourier::Fourier(int size) : size_(size) {
     }
 }
 
-/// The first step, of radix 3 or 5.
 template <bool inverse, int radix>
 void Fourier::odd_step(const ComplexLanes* from, ComplexLanes* to) const {
     const int part = size_ / radix;

@@ -10,7 +10,6 @@ namespace sonarsim {
 /// One number of each of the transforms that are made at a time.
 using Lanes = std::array<float, lanes>;
 
-/// Complex numbers of all lanes.
 struct alignas(32) ComplexLanes {
     Lanes re, im;
 };

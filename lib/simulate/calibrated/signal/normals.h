@@ -19,7 +19,6 @@ inline Floats8 natural_log_of_8(Floats8 x) {
     return fma(2.0F * s, series, to_floats(exponent) * 0.69314718056F);
 }
 
-/// Complex numbers, 8 of them.
 struct Complexes8 {
     Floats8 re, im;
 };

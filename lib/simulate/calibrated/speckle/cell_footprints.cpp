@@ -22,7 +22,6 @@ constexpr float min_split_areas = 0.5F;
 template <class T>
 using Batch = CellFootprints::Array<T>;
 
-/// Vectors as a structure of arrays.
 struct Vectors {
     Batch<float> x, y, z;
 
@@ -69,7 +68,6 @@ struct Surfaces {
     }
 };
 
-/// The value along an axis.
 template <class T>
 T along(std::int32_t axis, T x, T y, T z) {
     return axis == 0 ? x : axis == 1 ? y : z;
@@ -115,7 +113,6 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
     }
 }
 
-/// Projects the samples along their axes.
 void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor,
                          const ScattererCells& cells, CellFootprints& out) {
     const auto& [place, u, v, range, height, area, count] = surfaces;

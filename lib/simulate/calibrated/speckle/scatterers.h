@@ -31,7 +31,6 @@ struct ScattererCells {
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
                                double wavelength_m);
 
-/// The pose of the sonar among the cells.
 struct SonarInScene {
     Eigen::Matrix3f R_world_sensor = Eigen::Matrix3f::Identity();
     Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m
@@ -52,7 +51,6 @@ struct Scatterers {
     std::array<PatchBlock::Array<float>, 3> within{};
 };
 
-/// The complex amplitudes of a block's echoes.
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out);

@@ -30,7 +30,6 @@ constexpr float share_of_height = 0.7F;
 // repeat. Slopes of the coarse field reach some 0.3 per m: waves are stretched by up to a half.
 constexpr float bend_m = 1.5F;
 
-/// The deviation of an octave, dB.
 double octave_db(const Material& material) {
     if (!is_sea_bed(material)) return 0.6;
     return std::max(0.0, 1.2 - 0.08 * (material.grain_phi.value_or(1.5) - 1.5));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -7,8 +8,34 @@
 
 #include "simulate/ping/sonar.h"
 #include "simulate/product/bathymetry.h"
+#include "simulate/trace/ping.h"
 
 namespace sonarsim {
+
+// A row of a side-scan waterfall runs from port at range_max over nadir to starboard at range_max,
+// in columns as wide as a range bin. It has blank columns between nadir and range_min, where the
+// sonar does not listen, so that slant range is linear in the column on both sides.
+
+struct Side {
+    static constexpr int starboard = 0, port = 1;
+};
+
+/// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
+int blank_columns(const SonarConfig& config);
+
+/// The slant range of a column less its distance from nadir, at most half a bin to either side of
+/// 0: range_min may be no multiple of a bin.
+double column_offset_m(const SonarConfig& config);
+
+int waterfall_columns(const SonarConfig& config);
+
+/// The bin of a side-scan ping, [range bins, 2] like Ping::intensity, that each column shows; -1
+/// where the sonar does not listen.
+std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
+
+/// Slant range of the first bottom return in a beam, m: the middle of its bin
+/// (first_return_of_swath()). Nothing if the side is dark.
+std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam);
 
 /// The swath of a side-scan ping on the ground, which is assumed level at the depth of the bottom's
 /// first return.
@@ -24,10 +51,8 @@ struct Swath {
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
                               std::span<const float> row);
 
-/// Extends the bounds to both ends of the swath.
 void add_bounds(const Swath& swath, SoundingBounds& bounds);
 
-/// A row of the waterfall and its swath.
 struct SwathRow {
     Swath swath;
     std::vector<float> values;
