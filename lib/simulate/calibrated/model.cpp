@@ -113,8 +113,7 @@ std::vector<float> noise_values(const std::vector<float>& row_gain,
 }
 
 /// The value that is white in pictures of a fan: the 99 % quantile of the speckle of sand at half
-/// of the range, but at most full scale. Other sonars show what no such rule covers: a bottom from
-/// above, fish, plankton.
+/// of the range, but at most full scale. No such rule covers what other sonars show.
 double white_of_fan(const InstrumentLevels& levels) {
     return std::min(1.0, speckle_p99 * power_of_db(levels.sand_db - levels.full_scale_db));
 }

@@ -48,8 +48,7 @@ struct CalibratedModel final : EchoModel {
     std::vector<Material> prepared_materials;  ///< materials of the scene of prepared()
     std::optional<double> prepared_wind_m_s;   ///< the wind over its water, if its surface scatters
     Scattering scattering;  ///< these materials, then the water's surface if it scatters
-    /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
-    /// surface.
+    /// The scattering on and below sea beds; nothing: all comes from their surface.
     std::optional<SedimentScattering> sediment;
     Texture texture;
 

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "simulate/labels/sight_lines.h"
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
@@ -18,8 +17,7 @@ constexpr int max_surfaces_behind = 8;
 // Gap behind a surface at which a sight line continues, as a share of its range.
 constexpr float step_behind = 1e-5F;
 
-/// An object that a sight line has met, and the node before it. The first node of a way refers to
-/// itself.
+/// An object that a sight line has met, and the node before it; of the first node, itself.
 struct Occluder {
     std::uint32_t object, before;
 };
@@ -137,8 +135,7 @@ class LineTracer {
 };
 
 /// The parts of lines. One line of a sample finds out how deep the surface behind it is, layer by
-/// layer; behind the sample of a line array, whether there is any, as most floors and walls have
-/// none.
+/// layer; behind the sample of a line array, only whether there is any.
 template <class Cast>
 std::vector<SightLine> divided_lines(std::span<const SightLine> whole, const LineWidth& width,
                                      const LineTracer& tracer, Cast cast) {

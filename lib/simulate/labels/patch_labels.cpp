@@ -18,9 +18,8 @@ double variance_at_one_range(const EchoPatch& patch) {
     const auto [range, d] = arrival_of(patch.position);
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
-    // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
-    // (dz - (z / r) dr) / r along an edge. The part that is in proportion to range does not spread
-    // at one range.
+    // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by (dz - (z / r) dr)
+    // / r along an edge. Change in proportion to range does not spread at one.
     const double sine_u = (patch.edge_u.z() - d.z() * u) / range;
     const double sine_v = (patch.edge_v.z() - d.z() * v) / range;
     const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
@@ -85,8 +84,7 @@ class ElevationFinder : public BinMoments<2> {
     }
 
     /// The mean elevation of the echo of each bin and its standard deviation, rad. Means are of
-    /// sin(theta), weighted with the echo. Bins without an echo are left as they are, or NaN.
-    /// Clears the row.
+    /// sin(theta), weighted with the echo. Bins without an echo stay, or are NaN.
     void find(std::uint32_t row, std::span<float> elevation_rad, std::span<float> spread_rad) {
         take(row, [&](int begin, int end, const Sums& sums) {
             const auto [echo, first, second] = sums;
@@ -102,7 +100,7 @@ class ElevationFinder : public BinMoments<2> {
     }
 
   private:
-    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;  ///< by patch
+    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;  ///< the patch
 };
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.

@@ -135,8 +135,7 @@ class BinMoments {
   protected:
     using Sums = std::array<double*, moments + 1>;  ///< the echo and its moments, by bin
 
-    /// Calls use(first, last, sums) for a row, outside whose bins [first, last) all is 0, and
-    /// clears it.
+    /// Calls use(first, last, sums) with a row, 0 outside of bins [first, last), and clears it.
     template <class Use>
     void take(std::uint32_t row, Use use) {
         const auto [first, last] = reached_[row];
@@ -149,7 +148,7 @@ class BinMoments {
         reached_[row] = {bins_, 0};
     }
 
-    /// By covered bin of the patch.
+    /// [moments] for the covered bins of the patch.
     std::array<std::array<double, CoveredBins::at_once>, moments> moment_{};
 
   private:

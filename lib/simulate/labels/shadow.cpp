@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Replaces each 0 by the nearest other value; at equal distance by the lower one. False: all are
-/// 0.
+/// Replaces each 0 by the nearest other value, in a tie by the one before. False: all are 0.
 bool fill_gaps(std::span<std::uint16_t> ids) {
     const auto count = static_cast<int>(ids.size());
     int before = -1;
@@ -35,8 +34,7 @@ bool has_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::u
     return dark != 0;
 }
 
-/// Gives the bins in shadow their owners. False: some have none. No branches, so that the loop
-/// vectorises.
+/// Gives the bins in shadow their owners. False: some have none. The loop vectorises.
 bool name_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied,
                     std::span<const std::uint16_t> owners, std::span<std::uint16_t> shadow) {
     std::uint16_t without = 0;

@@ -18,8 +18,7 @@ class ShadowFinder {
     ShadowFinder(std::span<const HiddenPiece> pieces, const View& view);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
-    /// `covered` is 1 for the bins that some surface falls into, `occupied` for those that show
-    /// surface.
+    /// `covered` is 1 for the bins that some surface falls into, `occupied` for those that show it.
     void find(int j, std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied,
               std::span<std::uint16_t> shadow);
 
@@ -31,8 +30,7 @@ class ShadowFinder {
     std::size_t range_bins_;
     EchoSums sums_;  ///< the solid angles of hidden surface, by the object that hides it
     TopTwoFinder finder_;
-    /// [beams][range bins]: 1 + the object that hides most there; 0: no line ends there. Empty: not
-    /// computed yet.
+    /// [beams][range bins]: 1 + the object that hides most there, 0: none; empty: not computed.
     std::vector<std::vector<std::uint16_t>> owners_;
 };
 

@@ -1,9 +1,7 @@
-#include "simulate/labels/sight_lines.h"
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
+#include "simulate/labels/hidden_surface.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"
 #include "simulate/trace/taper.h"
@@ -55,7 +53,6 @@ void cover_beams(SightLine& line, const ConeBeams& cones) {
 /// The parts of an edge of a line array's sample across the line of sight: each spans the width of
 /// a line, and two widths of a beam along it. With one width, 182 instead of 339 of 17,700 bins of
 /// shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
-/// Chosen there.
 float parts_of_beams(const Eigen::Vector3f& half_edge, const SightLine& line,
                      const LineWidth& width) {
     constexpr float along_beam = 2.0F;

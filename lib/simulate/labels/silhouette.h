@@ -81,9 +81,8 @@ std::vector<std::uint16_t> find_bodies(const ExpectedBins& ping, std::span<const
 void add_bright(const MaskFrame& frame, const std::vector<std::uint16_t>& bright,
                 std::vector<std::uint16_t>& bodies);
 
-/// The outlines that a person draws around bodies: half a resolution cell around, as beam and pulse
-/// show them, gaps up to a cell closed and holes filled, but for bins of other bodies. Pieces below
-/// a cell are dropped.
+/// The outlines that a person draws around bodies: half a resolution cell around, gaps up to a cell
+/// closed and holes filled, but for bins of other bodies. Pieces below a cell are dropped.
 std::vector<std::uint16_t> outlined(const MaskFrame& frame, const std::vector<std::uint16_t>& ids);
 
 /// Drops the pieces without a bin that `visible`, PingLabels::visible_object, gives to their

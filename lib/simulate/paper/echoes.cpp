@@ -21,10 +21,9 @@ struct Footprints {
     Floats height_m, area_m2, reflection;
     Vectors cell, cell_u, cell_v;  ///< the same in scatterer cells, if there is noise
 
-    Floats range_m, depth_u_m,
-        depth_v_m;   ///< range of the centre; extent in range of each half edge
-    Floats u, v;     ///< whole numbers: pieces along either edge
-    Floats half_m;   ///< half the extent of a piece in range
+    Floats range_m, depth_u_m, depth_v_m;  ///< of the centre; extents in range of the half edges
+    Floats u, v;                           ///< whole numbers: pieces along either edge
+    Floats half_m;                         ///< half the extent of a piece in range
     Floats shift_m;  ///< middle of that extent, relative to the centre of the piece
     Floats weight;   ///< area of a piece, m^2
 };
@@ -154,8 +153,7 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
     return std::fma(s, u[axis][k], std::fma(t, v[axis][k], c[axis][k]));
 }
 
-/// Writes the echoes of footprint k, of `count` pieces, from the number `begin` on, and up to seven
-/// lanes more.
+/// Writes the echoes of footprint k, of `count` pieces, from number `begin` on, and 7 lanes more.
 void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std::size_t begin,
                   Echoes& to) {
     const float row_length = f.v[k];

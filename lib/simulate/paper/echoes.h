@@ -27,13 +27,11 @@ struct ScattererLattice {
 };
 
 /// The transform from the sensor frame to the cells of a lattice. Its constructor is inline, so
-/// that loops that write echoes keep it in registers: a function in another file might keep its
-/// address.
+/// that loops that write echoes keep it in registers.
 struct CellFrame {
     explicit CellFrame(const ScattererLattice& lattice) {
         // In cells. The offset keeps the faces of cells off round coordinates, on which planes of a
-        // scene often lie: rounding would put neighbouring points of such a plane into different
-        // cells.
+        // scene often lie: rounding would divide such a plane between two cells.
         const Eigen::Vector3f offset(0.381966F, 0.618034F, 0.272019F);
         const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
         rotation = per_cell * lattice.R_world_sensor;
@@ -53,8 +51,7 @@ struct Echoes : RangeBoxes {
 
 /// Turns the samples of a beam into echoes of intensity I = R (v . n), Eq. 4-6. A footprint that
 /// spans several bins or scatterer cells is cut into pieces, each of them an echo that is spread
-/// evenly over [range - half, range + half]. `ends` becomes the end of each sample's echoes; null:
-/// not wanted.
+/// evenly over [range - half, range + half]. `ends`: the end of each sample's echoes, if wanted.
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
                    std::vector<std::uint32_t>* ends = nullptr);
@@ -76,8 +73,7 @@ struct MultipathEchoes {
 };
 
 /// Turns the paths that are not scattered into echoes with the weight and the scatterer cells of
-/// their samples. A footprint that spans several beams, or cells where there is range noise, is cut
-/// into pieces.
+/// their samples. A footprint that spans several beams or cells is cut into pieces.
 MultipathEchoes multipath_echoes(std::span<const BouncePath> bounces, const Samples& samples,
                                  const View& view, const ScattererLattice& lattice);
 

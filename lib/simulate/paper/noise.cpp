@@ -31,8 +31,7 @@ void draw_words(std::uint32_t first, std::uint32_t purpose, PhiloxKey key,
     philox_pairs(a.data(), b.data(), count, key);
 }
 
-/// A draw of Rayleigh(1) for each pixel of a block, by inversion: sqrt(-2 ln u). One counter serves
-/// two pixels.
+/// Rayleigh(1) for each pixel of a block, by inversion: sqrt(-2 ln u). A counter serves two pixels.
 void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
     std::array<std::uint32_t, half_block> a, b;
     draw_words(block * half_block, additive, key, a, b);

@@ -30,15 +30,13 @@ std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, P
 /// The azimuth streaks of one sonar, Eq. 14-15.
 struct Streaks {
     StreakMode mode = StreakMode::none;
-    float threshold = 0.0F;  ///< zeta, a share of area
-    float min_cosine =
-        1.0F;  ///< cosine of the largest angle between v and n that is normal incidence
+    float threshold = 0.0F;   ///< zeta, a share of area
+    float min_cosine = 1.0F;  ///< of the largest angle of incidence that is normal
 
     bool exist() const { return mode != StreakMode::none; }
 };
 
-/// The area of the echoing surface in each range row, over all beams, and the part of it at normal
-/// incidence.
+/// The area of the echoing surface in each range row, and the part of it at normal incidence.
 struct RowAreas {
     std::vector<float> all;  ///< m^2
     BinSums normal;          ///< its weights are the areas

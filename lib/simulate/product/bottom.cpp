@@ -28,8 +28,7 @@ class SmoothedColumn {
 
     float operator[](int i) const { return mean_[i]; }
 
-    /// The first bin from `begin` on that reaches a threshold, which some running mean there
-    /// reaches.
+    /// The first bin from `begin` on that reaches a threshold, as some running mean does.
     int edge(float threshold, int begin = 0) const {
         int i = begin;
         while (i < size() && mean_[i] < threshold)

@@ -23,8 +23,7 @@ class Gain {
 /// The shown amplitude of an intensity, which is power: sqrt(intensity / white), at most 1.
 float shade(float intensity, float white);
 
-/// Converts intensities to 16-bit grey values: round(65535 intensity / full_scale), white above
-/// full_scale.
+/// 16-bit grey values: round(65535 intensity / full_scale), white above full_scale.
 std::vector<std::uint16_t> grey_16(std::span<const float> intensity, double full_scale);
 
 /// Bins [first_line, last_line] x [first_bin, last_bin]. A line is a beam, a ping or a step.
@@ -40,8 +39,7 @@ struct BinBox {
 struct LevelMap {
     int lines = 0, bins = 0;
     std::span<const std::uint16_t> object;  ///< the object in the bin; 0: none
-    std::span<const std::uint16_t>
-        shadow;  ///< the object whose shadow it is; 0: none. Empty: no shadows
+    std::span<const std::uint16_t> shadow;  ///< the object whose shadow it is; empty: no shadows
     std::span<const float> level;
     bool full_turn = false;      ///< the last line is next to the first
     bool levels_by_bin = false;  ///< `level` is [bins, lines], as an image is

@@ -33,8 +33,7 @@ namespace sonarsim {
 // uniform kernel that makes no intensity negative.
 
 /// The weights of successive bins for pixels centred at `phases` places within a bin. They are
-/// multiples of 1/256 and add up to exactly 1, so that a uniform surface stays uniform to the last
-/// bit.
+/// multiples of 1/256 and add up to exactly 1, so that uniform surface stays uniform.
 struct KernelTable {
     static constexpr int phases = 64;
 
@@ -58,8 +57,7 @@ struct KernelPlace {
 KernelPlace kernel_place(double coordinate);
 
 /// The frame of a sonar's fan: boresight up, port on the left, the apex in the middle column and
-/// `range_max / pixel_m` pixels below the upper edge, which is the lower edge unless the sector is
-/// wider than 180 degrees.
+/// `range_max / pixel_m` pixels below the upper edge, the lower edge up to a sector of 180 degrees.
 struct FanFrame {
     int width = 0;   ///< px
     int height = 0;  ///< px, at most twice the width
@@ -80,10 +78,9 @@ FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, dou
 bool is_inside_sector(const View& view, const FanPlace& place);
 
 /// The mapping from a sonar's bins to the pixels of its fan, made once per sonar. A pixel is the
-/// weighted mean of the bins around it, with EvenKernel in range and in azimuth; a
-/// pixel that is larger than the bins takes the mean of the bins that it covers. The area outside
-/// the sector is black, and edges are smooth: 64 points sample the covered share of a pixel on the
-/// edge.
+/// weighted mean of the bins around it, by KernelTable in range and in azimuth; a larger pixel
+/// takes the mean of the bins that it covers. The area outside the sector is black, and edges are
+/// smooth: 64 points sample the share of a pixel inside.
 struct FanMap {
     /// It is small, since every ping reads all pixels through the caches.
     struct Pixel {
@@ -119,9 +116,8 @@ struct FanMap {
 /// `width_px` as for fan_frame().
 FanMap make_fan_map(const Sonar& sonar, int width_px = 0);
 
-/// Renders the fan as grey values [height, width], row by row from the top. Intensity is power, and
-/// an operator's display shows amplitude: grey = 255 sqrt(intensity / full_scale), white above
-/// `full_scale`.
+/// Renders the fan as grey values [height, width], row by row from the top. Displays show
+/// amplitude: grey = 255 sqrt(intensity / full_scale), white above `full_scale`.
 std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale);
 
 /// The fan as the sonar's own display shows it: the values of raw/ from 0 (black) to their largest
@@ -142,8 +138,7 @@ struct FanBins {
 /// Makes the bins for the same fan as make_fan_map(sonar).
 FanBins make_fan_bins(const Sonar& sonar);
 
-/// The values of `by_beam` [beams, range bins] at the bins of a fan's pixels; `blank` outside the
-/// sector.
+/// The values of `by_beam` [beams, range bins] at a fan's pixels; `blank` outside the sector.
 template <class T>
 std::vector<T> fan_values(std::span<const std::int32_t> bins, const std::vector<T>& by_beam,
                           T blank) {
@@ -153,8 +148,7 @@ std::vector<T> fan_values(std::span<const std::int32_t> bins, const std::vector<
     return out;
 }
 
-/// Keeps the last results of a pure function by its arguments: the variants of a job mostly ask for
-/// the same.
+/// The last results of a pure function by its arguments; variants of a job mostly ask for the same.
 template <class Arguments, class Result>
 class LastResults {
   public:

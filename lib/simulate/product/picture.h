@@ -38,12 +38,10 @@ void write(Picture& picture, int x, int y, std::string_view text, Align align, R
 
 int text_width(std::string_view text);
 
-/// The marks of an axis over [low, high]: about `wanted` multiples of 1, 2 or 5 times a power of
-/// ten.
+/// The marks of an axis over [low, high]: about `wanted`, steps of 1, 2 or 5 times a power of ten.
 std::vector<double> axis_marks(double low, double high, double wanted);
 
-/// The least of the numbers ..., 0.2, 0.5, 1, 2, 5, 10, ... that is at least `value`, which must be
-/// positive.
+/// The least of ..., 0.2, 0.5, 1, 2, 5, 10, ... that is at least `value`, which must be positive.
 double round_up_125(double value);
 
 /// The greatest of those numbers that is at most `value`, which must be positive.

@@ -75,8 +75,7 @@ __m128 lane_sums(__m128 a, __m128 b, __m128 c, __m128 d) {
     return _mm_hadd_ps(halves(a, b), halves(c, d));
 }
 
-/// Calls weighted(pixel), which gives the weighted bins of a pixel in four lanes, and adds the
-/// lanes.
+/// Adds the four lanes of weighted(pixel), the weighted bins of a pixel.
 template <class Weighted>
 void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* sums) {
     std::size_t p = 0;

@@ -37,8 +37,7 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 /// (first_return_of_swath()). Nothing if the side is dark.
 std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam);
 
-/// The swath of a side-scan ping on the ground, which is assumed level at the depth of the bottom's
-/// first return.
+/// The swath of a side-scan ping on ground taken as level, at the depth of the first return.
 struct Swath {
     Eigen::Vector2d nadir_m = Eigen::Vector2d::Zero();  ///< world x, y below the sonar
     Eigen::Vector2d port = Eigen::Vector2d::Zero();     ///< unit vector, world

@@ -67,8 +67,7 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
 
 /// Divides a beam by its background. This is the mean noise of the receiver, which the TVG raises
 /// with range, plus what the median bin has above it, such as water or side lobes. Undivided, noise
-/// at long range may be stronger than the bottom. Divided by the noise alone, water near the sonar
-/// may be.
+/// at long range may be stronger than the bottom. Divided by noise alone, near water may be.
 void divide_by_background(std::span<double> beam, std::span<const float> noise) {
     constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
     constexpr double min_power = 1e-30;
@@ -118,8 +117,7 @@ class Contrast {
         return (sums_[end] - sums_[begin]) / std::sqrt(static_cast<double>(end - begin));
     }
 
-    /// The run of the greatest contrast among half-overlapping runs of 1, 2, 4, ... bins within
-    /// [from, to).
+    /// The best of half-overlapping runs of 1, 2, 4, ... bins within [from, to).
     DetectedReturn coarse(int from, int to) const {
         DetectedReturn best;
         for (int length = 1; from + length <= to; length *= 2) {
@@ -143,8 +141,7 @@ class Contrast {
     std::vector<double> sums_;
 };
 
-/// Moves the ends of a run as long as its contrast grows, first by half of its length, then by
-/// less.
+/// Moves the ends of a run while its contrast grows, first by half of its length, then by less.
 void refine(const Contrast& contrast, DetectedReturn& run) {
     for (int step = std::max((run.end - run.begin) / 2, 1); step >= 1; step /= 2) {
         for (bool moved = true; moved;) {

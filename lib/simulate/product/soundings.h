@@ -17,8 +17,7 @@ struct Sounding {
     double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: the beam is dark
     Eigen::Vector3d position = Eigen::Vector3d::Constant(range_m);  ///< world, m
     /// 1 - (c / C)^2, where C is the contrast of the return and c the greatest contrast elsewhere
-    /// in the beam. 1 for one surface without noise; below 0.5 noise alone may have made the
-    /// return.
+    /// in the beam. 1 for one surface without noise; below 0.5 it may be noise alone.
     double quality = 0.0;
 };
 
@@ -30,9 +29,8 @@ int beams_with_sounding(const Ping& ping);
 /// A beam is divided by the growth of the echo model's noise with range, so that the noise is
 /// uniform. The range is the middle of its detect_return(); in the calibrated model, over oblique
 /// ground, the place near it where both neighbouring beams are equally strong. The position lies on
-/// the beam's axis, at elevation 0, by the water's profile of sound speed. If the sonar moves in
-/// the ping, the axis is that at the pose of reception. `T_world_vehicle` is the pose of
-/// transmission.
+/// the beam's axis, at elevation 0, by the water's profile of sound speed. If the sonar moves, the
+/// axis is that at reception. `T_world_vehicle` is the pose of transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
 
@@ -45,8 +43,7 @@ struct DetectedReturn {
 };
 
 /// Finds the run of bins of the greatest contrast. In white noise of unit variance, half of its
-/// square is the log of the likelihood ratio of a surface of constant brightness against no
-/// surface.
+/// square is the log likelihood ratio of a surface of constant brightness.
 DetectedReturn detect_return(std::span<const double> beam);
 
 }  // namespace sonarsim

@@ -35,8 +35,7 @@ class PointDensity {
 
     float of(std::uint32_t facet) const {
         if (facet < own_density_.size()) return own_density_[facet];
-        // Looked up by search: copies may have more triangles than memory holds, and few of them
-        // are in view.
+        // Looked up: copies may have more triangles than memory holds, few of them in view.
         const auto copy_shares = shares_.subspan(own_shares_);
         const auto at = std::ranges::lower_bound(copy_shares, facet, {}, &SurfaceShare::facet);
         if (at == copy_shares.end() || at->facet != facet) return 0.0F;
@@ -63,8 +62,7 @@ struct Cast {
     const PointSink& found;
     std::uint64_t rays = 0;
 
-    /// Reports the surface point that a ray has met. `density` is solid_angle_density() of its
-    /// direction.
+    /// Reports the point that a ray has met. `density`: solid_angle_density() of its direction.
     void add(const Eigen::Vector3f& direction, double density, int beam, std::uint32_t index) {
         const Facet facet = looking.caster.facet(index);
         const Eigen::Vector3d normal = facet.normal.cast<double>();

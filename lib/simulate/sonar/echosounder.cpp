@@ -65,8 +65,7 @@ void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
 
 }  // namespace
 
-/// An echosounder (section VI): one beam, a cone of half-angle opening / 2. Its range noise does
-/// not fade. Looks down.
+/// An echosounder (section VI): a cone of half-angle opening / 2. Its range noise does not fade.
 KindOfSonar echosounder_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::echosounder;

@@ -20,8 +20,7 @@ enum class RecordPictures {
 };
 
 /// The record of a kind of sonar: the row of a ping in NAME.npy, which holds all pings of a sensor.
-/// It is a selection of the ping's bins; the writer of a record without pictures may make it of
-/// other values.
+/// It is a selection of the ping's bins; without pictures a writer may make it of others.
 struct RecordShape {
     std::string_view name;            ///< name of the file; "": the kind has no record
     std::string_view axis = "range";  ///< the meaning of a ping's values, for dataset.json

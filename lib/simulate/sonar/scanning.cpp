@@ -5,8 +5,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Leaves beam_azimuths_rad empty, so that the noise has no lobe in azimuth: the head turns over
-/// all azimuths.
+/// Leaves beam_azimuths_rad empty: noise has no lobe in azimuth, as the head turns over all.
 void turn_head(Sonar& sonar) {
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
     sonar.azimuth_edges_rad = edges(-half, half, 1);

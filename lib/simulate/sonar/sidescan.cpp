@@ -79,8 +79,7 @@ void describe_waterfall(const Sonar& sonar, nlohmann::ordered_json& sensor) {
 
 }  // namespace
 
-/// A side-scan sonar (section IV): two beams, starboard and port, of range bins alone. No range
-/// noise. Looks down.
+/// A side-scan sonar (section IV): two beams, starboard and port. No range noise. Looks down.
 KindOfSonar sidescan_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::sidescan;

@@ -16,10 +16,6 @@ namespace sonarsim {
 
 namespace {
 
-float cosine_of(double angle_deg) {
-    return static_cast<float>(sincos(radians(angle_deg)).cos);
-}
-
 /// Sets T_vehicle_sensor: the default mount of the kind, turned by the mission's roll, pitch and
 /// yaw and moved by its translation. Sonars that look down have x along the vehicle's -z and z
 /// along its x, so that azimuth runs from starboard (-) to port (+).
@@ -54,9 +50,10 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .shape = kind.shape};
     const MultipathConfig& multipath = config.multipath;
     const bool exact = multipath.method == MultipathMethod::exact;
-    settings.multipath = {.on = multipath.method != MultipathMethod::none,
-                          .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                                      .delta_cosine = cosine_of(multipath.delta_deg)}};
+    settings.multipath = {
+        .on = multipath.method != MultipathMethod::none,
+        .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
+                    .delta_cosine = static_cast<float>(sincos(radians(multipath.delta_deg)).cos)}};
     return sonar;
 }
 

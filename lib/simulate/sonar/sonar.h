@@ -50,9 +50,8 @@ class SonarAtPose {
 /// The time from one group of beams to the next, s.
 double group_period_s(const Sonar& sonar, double sound_speed_m_s);
 
-/// Traces a ping from a pose of the vehicle, and its later groups of beams from the vehicle's later
-/// poses. `pose` is the index of the pose on the trajectory; the angle of a turning head depends on
-/// it.
+/// Traces a ping and, from later poses, its later groups of beams. `pose`: its index on the
+/// trajectory, for the angle of a turning head.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 

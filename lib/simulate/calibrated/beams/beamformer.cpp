@@ -43,8 +43,7 @@ Complexes element_weights(const LineArray& array, double elements) {
 }
 
 /// Applies the errors of the array's elements. The mean side lobe is the errors' variance divided
-/// by the number of elements, so the variance is scaled from the array's elements to the samples of
-/// the aperture.
+/// by the number of elements, so it is scaled from elements to samples of the aperture.
 void add_element_errors(const LineArray& array, const ElementsConfig& elements, double samples,
                         Complexes& weights) {
     if (!elements.exist()) return;

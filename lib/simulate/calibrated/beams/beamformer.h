@@ -56,8 +56,7 @@ class Beamformer {
     struct Weight {
         float re, im;
         int index;          ///< element of the transform
-        float noise_scale;  ///< cancels, for noise, the interpolation correction, which applies to
-                            ///< echoes only
+        float noise_scale;  ///< undoes the correction of interpolation, which noise does not need
     };
 
     void add_weights(const LineArray& array, double samples, const ElementsConfig& element_errors);

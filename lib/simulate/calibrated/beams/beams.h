@@ -21,8 +21,7 @@ struct ReceivedPiece {
     float power;
 };
 
-/// The beams of an instrument: those that a line array forms, or transducers that form none.
-/// Immutable.
+/// The beams that a line array forms, or transducers that form none. Immutable.
 class Beams {
   public:
     virtual ~Beams() = default;
@@ -32,8 +31,7 @@ class Beams {
     /// The columns of the grid of echoes, and their sines; null: a beam has a column to itself.
     virtual int columns() const = 0;
     virtual const SineGrid* sines() const { return nullptr; }
-    /// The scalloping correction across the columns: mean power over positions between two columns
-    /// / power at a column.
+    /// Scalloping correction: mean power over positions between columns / power at a column.
     virtual float scalloping_gain() const { return 1.0F; }
     /// Finds the columns of echoes. Echoes outside the grid get the power 0; returns their number.
     virtual std::uint64_t find_columns(const PatchBlock& /*pieces*/,

@@ -77,8 +77,7 @@ inline constexpr float exp_neg_cutoff = 43.0F;
 /// The same for absorption, which a gain may compensate: the least power that floats hold.
 inline constexpr float min_loss = 87.0F;
 
-/// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without
-/// branches.
+/// e^-x for x >= -88, error below 3e-6; 0 from x = `longest` on and for NaN; no branches.
 inline float exp_neg(float x, float longest = exp_neg_cutoff) {
     const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);

@@ -15,13 +15,6 @@ namespace sonarsim {
 
 namespace {
 
-Material bottom(const char* name, double grain_phi) {
-    Material material;
-    material.name = name;
-    material.grain_phi = grain_phi;
-    return material;
-}
-
 constexpr double grazing_deg = 20.0;
 
 /// Integral over [-end, end] of an even function by midpoints.
@@ -90,8 +83,9 @@ double scattering_strength(const Material& sea_bed, double frequency_hz, double 
 }
 
 const std::array<Material, 3>& example_bottoms() {
-    static const std::array<Material, 3> bottoms{bottom("mud", 8.0), bottom("sand", 1.5),
-                                                 bottom("rock", -9.99)};
+    static const std::array<Material, 3> bottoms{{{.name = "mud", .grain_phi = 8.0},
+                                                  {.name = "sand", .grain_phi = 1.5},
+                                                  {.name = "rock", .grain_phi = -9.99}}};
     return bottoms;
 }
 

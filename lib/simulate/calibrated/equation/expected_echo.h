@@ -53,8 +53,7 @@ double bottom_echo_db(const ExpectedEcho& echo, double strength_db, double range
 /// side-scan array in its near field.
 double target_echo_db(const ExpectedEcho& echo, double target_strength_db, double range_m);
 
-/// The farthest range at which an echo is at least `level_db`, 0 if there is none. `echo_db` falls
-/// with range.
+/// The farthest range with an echo of at least `level_db`, 0: none. `echo_db` falls with range.
 template <class Function>
 double range_of_level(const Function& echo_db, double level_db) {
     double low = 1e-3;

@@ -47,8 +47,7 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
 double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double range_m);
 
 // Missions may set levels over 600 dB, whose sums are many times greater, but a float holds 380 dB
-// to either side of 1. These limits keep all values finite. They change nothing at the levels of
-// real instruments.
+// to either side of 1. These limits keep all values finite. Levels of real instruments stay.
 
 /// The dB that are added to the powers of the grid of echoes, which are ratios to the source level,
 /// so that floats hold the noise of the receiver and the echoes above it. `noise_db` is relative to

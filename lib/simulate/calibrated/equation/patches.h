@@ -55,8 +55,7 @@ struct HalfExtents {
     float range_m, sine;
 };
 
-/// Half the extents of a piece of a footprint with the half edges `u` and `v` that is cut into rows
-/// and columns.
+/// The same of a piece of a footprint with half edges `u` and `v`, cut into rows and columns.
 inline HalfExtents half_extents(const EdgeExtents& u, const EdgeExtents& v, float range_m,
                                 int rows = 1, int columns = 1) {
     const auto by_u = static_cast<float>(rows);

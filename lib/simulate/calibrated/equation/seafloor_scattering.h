@@ -61,8 +61,7 @@ class SeafloorScattering {
     double volume(double grazing_rad) const;
     /// The share of the Kirchhoff integral at its joint with `composite`.
     double share(double grazing_rad) const;
-    /// The share of the surface that is not in the shadow of its own slopes, by the report, Eq. 43
-    /// to 45.
+    /// The share of the surface not in the shadow of its own slopes (report, Eq. 43 to 45).
     double unshadowed_share(double grazing_rad) const;
 
     SeaBed bed_;

@@ -41,8 +41,7 @@ struct SpecularPath {
 std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene,
                                          ViewShape shape);
 
-/// A block of echoes that return from another place than they were sent to, with powers and range
-/// bins as in PointEchoes.
+/// Echoes that return from another place than they were sent to; powers and bins as in PointEchoes.
 struct SpecularBlock {
     PathEndpoint out;    ///< the ranges of its echoes are those of the places
     PatchBlock& places;  ///< the echoes come back from these

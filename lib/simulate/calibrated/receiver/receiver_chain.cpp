@@ -97,15 +97,6 @@ struct Law {
     }
 };
 
-// Powers of more than 60 dB above full scale count as that.
-constexpr float max_power = 1e6F;
-
-/// The value v above a knee k becomes 1 - (1 - k) exp(-(v - k) / (1 - k)), whose slope at k is 1.
-float compressed(float value, float knee) {
-    if (!(value > knee)) return value;
-    return 1.0F - (1.0F - knee) * exp_neg((value - knee) / (1.0F - knee));
-}
-
 Law law_of(const ReceiverConfig& receiver) {
     switch (receiver.companding) {
         case Companding::log:
@@ -115,6 +106,15 @@ Law law_of(const ReceiverConfig& receiver) {
         default:
             return {false, static_cast<float>(0.5 * receiver.gamma)};
     }
+}
+
+// Powers of more than 60 dB above full scale count as that.
+constexpr float max_power = 1e6F;
+
+/// The value v above a knee k becomes 1 - (1 - k) exp(-(v - k) / (1 - k)), whose slope at k is 1.
+float compressed(float value, float knee) {
+    if (!(value > knee)) return value;
+    return 1.0F - (1.0F - knee) * exp_neg((value - knee) / (1.0F - knee));
 }
 
 // A tail this far below the echo in the same bin changes it by at most a grey, and is left out.

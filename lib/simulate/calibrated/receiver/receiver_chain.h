@@ -11,8 +11,7 @@
 
 namespace sonarsim {
 
-// The stages of a receiver after its beams and its gain; section 5 of docs/calibrated.md. Each is
-// off by default.
+// The stages of a receiver after beams and gain (docs/calibrated.md, section 5), off by default.
 
 struct ImageRows {
     double range_min_m = 0.0;

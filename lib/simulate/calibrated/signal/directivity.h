@@ -60,8 +60,7 @@ double piston_directivity(double width_rad);
 /// together (exact for Gaussian beams).
 double receiving_directivity(const BeamConfig& beam);
 
-/// The transmitter: a fan transmits evenly into its azimuth, others transmit with the receiving
-/// beam.
+/// A fan transmits evenly into its azimuth, others transmit with the receiving beam.
 double transmitting_directivity(const BeamConfig& beam, const View& view);
 
 /// The amplitude off the axis of a disc that moves as a whole, 2 J1(x) / x; x is

@@ -1,8 +1,5 @@
 #include "simulate/calibrated/signal/filtered_noise.h"
 
-#include "core/lanes.h"
-#include "simulate/calibrated/signal/normals.h"
-
 namespace sonarsim {
 
 FilteredNoise::FilteredNoise(const NoiseChannels& channels, const std::vector<float>& taps,

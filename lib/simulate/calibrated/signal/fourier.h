@@ -14,8 +14,7 @@ struct alignas(32) ComplexLanes {
     Lanes re, im;
 };
 
-/// Discrete Fourier transforms, X[k] = sum x[n] e^(-2 pi i k n / N), where N is a power of two or
-/// 3 or 5 times one.
+/// Fourier transforms, X[k] = sum x[n] e^(-2 pi i k n / N); N is 1, 3 or 5 times a power of two.
 class Fourier {
   public:
     /// `size`: such an N from 2 on.

@@ -12,8 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The pattern of any pedestal at one t: the parts of the uniform weight and of the cosine, each of
-/// unit weight.
+/// The pattern of any pedestal at one t: parts of the uniform weight and of the cosine, unweighted.
 struct PatternParts {
     double even, cosine;
 
@@ -73,8 +72,7 @@ double end_phase(const LineArray& array, double wavelength_m) {
     return 0.25 * pi * array.wavelengths * array.wavelengths * wavelength_m;
 }
 
-/// The number of steps along the array, so that the phase turns by less than a quarter of a radian
-/// in each.
+/// The number of steps along the array, each with less than a quarter of a radian of phase.
 int steps_for(double bend, double turn) {
     return 32 + static_cast<int>(4.0 * (std::fabs(bend) + std::fabs(turn)));
 }

@@ -38,8 +38,7 @@ struct PulseBand {
     double sweep_hz = 0.0;  ///< B
     /// The bandwidth of the noise: its power over its spectrum. The matched filter of a pulse of
     /// length T and energy E gives the ratio E / N0 of echo to white noise; weights lose the factor
-    /// mean(w^2) / mean(w)^2. So the bandwidth is this factor over T, with T = 1 / B for a pulse
-    /// without a code.
+    /// mean(w^2) / mean(w)^2. So the bandwidth is this factor over T, T = 1 / B without a code.
     double noise_hz = 0.0;
     /// The equivalent length of the pulse: the integral of its square. An echo of surface has the
     /// energy of this length of surface.

@@ -93,8 +93,7 @@ float power_of_two(std::int32_t exponent) {
 }
 
 /// The level of the smaller cells, and the share w of the larger ones that are not split. A larger
-/// cell holds 4 smaller ones, so its mean number of scatterers is w + 4 (1 - w), which w sets to
-/// the wanted number.
+/// cell holds 4 smaller ones, so its mean number of scatterers is w + 4 (1 - w), the wanted number.
 void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFootprints& out) {
     const float per_area = 1.0F / (cells.min_edge_m * cells.min_edge_m);
     const std::int32_t top = cells.levels - 1;

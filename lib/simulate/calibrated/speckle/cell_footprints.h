@@ -14,8 +14,7 @@ namespace sonarsim {
 /// first and the second axis. The drawing in docs/calibrated.md, section 2, shows it. Between the
 /// ranges of two levels of cells, some of the larger cells hold one scatterer each, and the others
 /// are split into four. Lengths are in edges of the smaller cells, from a corner of the lattice
-/// near the sample (the base), so that floats hold them. A structure of arrays, so that loops over
-/// the samples vectorise.
+/// near the sample (the base), so that floats hold them. Arrays, so that loops vectorise.
 struct CellFootprints {
     static constexpr int capacity = 32;
     template <class T>

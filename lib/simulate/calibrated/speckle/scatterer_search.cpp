@@ -89,8 +89,7 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
 }
 
 /// Finds the cells whose points lie on samples and makes scatterers of them. A batch of samples
-/// passes each step together, so that the processor knows the length of a loop well before it
-/// begins.
+/// passes each step together: the processor knows the length of loops early.
 class Search {
   public:
     Search(PhiloxKey key, Scatterers& block, const std::function<void(const Scatterers&)>& use)
@@ -127,8 +126,7 @@ class Search {
     }
 
   private:
-    /// The scatterers of a sample in the block, from the end of the previous run to one before
-    /// `end`.
+    /// The scatterers of a sample in the block, from the end of the previous run to `end` - 1.
     struct Run {
         int sample, end;
     };
@@ -143,15 +141,127 @@ class Search {
         return PatchBlock::capacity - block_.pieces.count;
     }
 
-    void emit_coarse(int k);
-    void emit_fine(int k);
-    template <int size>
-    int keep(int k, Ints8 column, Ints8 row, unsigned mask, int to);
-    void complete(const Run& run);
     void complete_runs() {
         for (int r = 0; r < run_count_; ++r)
             complete(runs_[r]);
         run_count_ = 0;
+    }
+
+    void emit_coarse(int k) {
+        const int end = whole_.begin[k + 1];
+        for (int at = whole_.begin[k]; at < end;) {
+            const int stop = std::min(end, at + room(k));
+            int count = block_.pieces.count;
+            for (; at < stop; at += lanes) {
+                count += keep<2>(k, Ints8::load(whole_.column.data() + at),
+                                 Ints8::load(whole_.row.data() + at),
+                                 0xFFU >> std::max(0, at + lanes - stop), count);
+            }
+            at = stop;
+            block_.pieces.count = count;
+        }
+    }
+
+    /// Two cells at a time, four parts each.
+    void emit_fine(int k) {
+        const Ints8 right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
+        const Ints8 up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
+        const int end = split_.begin[k + 1];
+        for (int at = split_.begin[k]; at < end;) {
+            const int stop = std::min(end, at + room(k) / 4);
+            int count = block_.pieces.count;
+            for (; at < stop; at += 2) {
+                const Ints8 columns = two_by_four(split_.column.data() + at);
+                const Ints8 rows = two_by_four(split_.row.data() + at);
+                const Ints8 column = columns + columns + right;
+                const Ints8 row = rows + rows + up;
+                count += keep<1>(k, column, row, at + 1 < stop ? 0xFFU : 0x0FU, count);
+            }
+            at = stop;
+            block_.pieces.count = count;
+        }
+    }
+
+    /// Keeps the cells, of 8, whose points lie on the sample: writes them from place `to` of the
+    /// block on and returns their number. A cell has `size` edges of a smaller cell.
+    template <int size>
+    int keep(int k, Ints8 column, Ints8 row, unsigned mask, int to) {
+        const CellFootprints& p = footprints_;
+        constexpr auto edges = static_cast<float>(size);
+        const std::int32_t level = p.level[k] + size - 1;
+        const Floats8 along_first =
+            place_on_line(Ints8(p.base_second[k] / size) + row, level, p.axis[k], 0, key_);
+        const Floats8 along_second =
+            place_on_line(Ints8(p.base_first[k] / size) + column, level, p.axis[k], 1, key_);
+        const Floats8 x = fms(edges, to_floats(column) + along_first, p.first[k]);
+        const Floats8 y = fms(edges, to_floats(row) + along_second, p.second[k]);
+        const Floats8 s = fma(x, p.s_x[k], y * p.s_y[k]);
+        const Floats8 t = fma(x, p.t_x[k], y * p.t_y[k]);
+        const Floats8 half_u = fma(t, p.taper_v[k], 1.0F);
+        const Floats8 half_v = fma(s, p.taper_u[k], 1.0F);
+        const Mask8 inside =
+            (s >= 0.0F - half_u) & (s < half_u) & ((t >= 0.0F - half_v) & (t < half_v));
+        const ToFront front(mask & inside.bits());
+        front(s).store(s_.data() + to);
+        front(t).store(t_.data() + to);
+        front(column).store(column_.data() + to);
+        front(row).store(row_.data() + to);
+        front(along_first).store(along_first_.data() + to);
+        front(along_second).store(along_second_.data() + to);
+        Floats8(edges).store(size_.data() + to);
+        return front.count;
+    }
+
+    /// Completes the scatterers that were found on a sample, eight at a time: lanes beyond the last
+    /// one are overwritten later.
+    void complete(const Run& run) {
+        PatchBlock& pieces = block_.pieces;
+        const CellFootprints& p = footprints_;
+        const int of = run.sample;
+        const Sample& sample = samples_[of];
+        const Eigen::Vector3f& position = sample.position;
+        const Eigen::Vector3f& u = sample.edge_u;
+        const Eigen::Vector3f& v = sample.edge_v;
+        const int axis = p.axis[of];
+        const int first = (axis + 1) % 3;
+        const int second = (axis + 2) % 3;
+        for (int k = completed_; k < run.end; k += lanes) {
+            const Floats8 s = Floats8::load(s_.data() + k);
+            const Floats8 t = Floats8::load(t_.data() + k);
+            const auto along = [&](float centre, float by_s, float by_t) {
+                return fma(s, by_s, fma(t, by_t, centre));
+            };
+            along(position.x(), u.x(), v.x()).store(pieces.x.data() + k);
+            along(position.y(), u.y(), v.y()).store(pieces.y.data() + k);
+            along(position.z(), u.z(), v.z()).store(pieces.z.data() + k);
+            Floats8(sample.height_m).store(pieces.height_m.data() + k);
+            Ints8(sample.material)
+                .store(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k);
+            Ints8(static_cast<std::uint32_t>(number_of_first_ + of))
+                .store(reinterpret_cast<std::int32_t*>(pieces.sample.data()) + k);
+            const Floats8 size = Floats8::load(size_.data() + k);
+            const Floats8 edge = size * p.fine_m[of];
+            edge.store(block_.edge_m.data() + k);
+            (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
+            // Numbers from the base become numbers of the lattice; the base is a multiple of 8.
+            const Ints8 is_larger = to_ints(size) >> 1;
+            const auto number = [&](int side, std::int32_t base, Ints8 from_base) {
+                (halved(base, is_larger) + from_base).store(block_.cell[side].data() + k);
+            };
+            number(first, p.base_first[of], Ints8::load(column_.data() + k));
+            number(second, p.base_second[of], Ints8::load(row_.data() + k));
+            // Cells are four edges high, with the scatterer near the middle: cuts of a curved
+            // surface into flat samples differ a little in height, which must not change it.
+            const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
+            const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
+            number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
+            // The phase follows from the scatterer's own place. With the phase of another place in
+            // the cell, speckle would decorrelate faster than the aperture allows.
+            Floats8::load(along_first_.data() + k).store(block_.within[first].data() + k);
+            Floats8::load(along_second_.data() + k).store(block_.within[second].data() + k);
+            Floats8(0.5F).store(block_.within[axis].data() + k);
+        }
+        completed_ = run.end;
     }
 
     std::uint32_t key_;
@@ -169,123 +279,6 @@ class Search {
     int run_count_ = 0;
     int completed_ = 0;  ///< number of complete scatterers in the block
 };
-
-void Search::emit_coarse(int k) {
-    const int end = whole_.begin[k + 1];
-    for (int at = whole_.begin[k]; at < end;) {
-        const int stop = std::min(end, at + room(k));
-        int count = block_.pieces.count;
-        for (; at < stop; at += lanes) {
-            count += keep<2>(k, Ints8::load(whole_.column.data() + at),
-                             Ints8::load(whole_.row.data() + at),
-                             0xFFU >> std::max(0, at + lanes - stop), count);
-        }
-        at = stop;
-        block_.pieces.count = count;
-    }
-}
-
-/// Two cells at a time, four parts each.
-void Search::emit_fine(int k) {
-    const Ints8 right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
-    const Ints8 up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);
-    const int end = split_.begin[k + 1];
-    for (int at = split_.begin[k]; at < end;) {
-        const int stop = std::min(end, at + room(k) / 4);
-        int count = block_.pieces.count;
-        for (; at < stop; at += 2) {
-            const Ints8 columns = two_by_four(split_.column.data() + at);
-            const Ints8 rows = two_by_four(split_.row.data() + at);
-            const Ints8 column = columns + columns + right;
-            const Ints8 row = rows + rows + up;
-            count += keep<1>(k, column, row, at + 1 < stop ? 0xFFU : 0x0FU, count);
-        }
-        at = stop;
-        block_.pieces.count = count;
-    }
-}
-
-/// Keeps the cells, of 8, whose points lie on the sample: writes them from place `to` of the block
-/// on and returns their number. A cell has `size` edges of a smaller cell.
-template <int size>
-int Search::keep(int k, Ints8 column, Ints8 row, unsigned mask, int to) {
-    const CellFootprints& p = footprints_;
-    constexpr auto edges = static_cast<float>(size);
-    const std::int32_t level = p.level[k] + size - 1;
-    const Floats8 along_first =
-        place_on_line(Ints8(p.base_second[k] / size) + row, level, p.axis[k], 0, key_);
-    const Floats8 along_second =
-        place_on_line(Ints8(p.base_first[k] / size) + column, level, p.axis[k], 1, key_);
-    const Floats8 x = fms(edges, to_floats(column) + along_first, p.first[k]);
-    const Floats8 y = fms(edges, to_floats(row) + along_second, p.second[k]);
-    const Floats8 s = fma(x, p.s_x[k], y * p.s_y[k]);
-    const Floats8 t = fma(x, p.t_x[k], y * p.t_y[k]);
-    const Floats8 half_u = fma(t, p.taper_v[k], 1.0F);
-    const Floats8 half_v = fma(s, p.taper_u[k], 1.0F);
-    const Mask8 inside =
-        (s >= 0.0F - half_u) & (s < half_u) & ((t >= 0.0F - half_v) & (t < half_v));
-    const ToFront front(mask & inside.bits());
-    front(s).store(s_.data() + to);
-    front(t).store(t_.data() + to);
-    front(column).store(column_.data() + to);
-    front(row).store(row_.data() + to);
-    front(along_first).store(along_first_.data() + to);
-    front(along_second).store(along_second_.data() + to);
-    Floats8(edges).store(size_.data() + to);
-    return front.count;
-}
-
-/// Completes the scatterers that were found on a sample, eight at a time: lanes beyond the last one
-/// are overwritten later.
-void Search::complete(const Run& run) {
-    PatchBlock& pieces = block_.pieces;
-    const CellFootprints& p = footprints_;
-    const int of = run.sample;
-    const Sample& sample = samples_[of];
-    const Eigen::Vector3f& position = sample.position;
-    const Eigen::Vector3f& u = sample.edge_u;
-    const Eigen::Vector3f& v = sample.edge_v;
-    const int axis = p.axis[of];
-    const int first = (axis + 1) % 3;
-    const int second = (axis + 2) % 3;
-    for (int k = completed_; k < run.end; k += lanes) {
-        const Floats8 s = Floats8::load(s_.data() + k);
-        const Floats8 t = Floats8::load(t_.data() + k);
-        const auto along = [&](float centre, float by_s, float by_t) {
-            return fma(s, by_s, fma(t, by_t, centre));
-        };
-        along(position.x(), u.x(), v.x()).store(pieces.x.data() + k);
-        along(position.y(), u.y(), v.y()).store(pieces.y.data() + k);
-        along(position.z(), u.z(), v.z()).store(pieces.z.data() + k);
-        Floats8(sample.height_m).store(pieces.height_m.data() + k);
-        Ints8(sample.material).store(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k);
-        Ints8(static_cast<std::uint32_t>(number_of_first_ + of))
-            .store(reinterpret_cast<std::int32_t*>(pieces.sample.data()) + k);
-        const Floats8 size = Floats8::load(size_.data() + k);
-        const Floats8 edge = size * p.fine_m[of];
-        edge.store(block_.edge_m.data() + k);
-        (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
-        // Numbers from the base become numbers of the lattice; the base is a multiple of 8.
-        const Ints8 is_larger = to_ints(size) >> 1;
-        const auto number = [&](int side, std::int32_t base, Ints8 from_base) {
-            (halved(base, is_larger) + from_base).store(block_.cell[side].data() + k);
-        };
-        number(first, p.base_first[of], Ints8::load(column_.data() + k));
-        number(second, p.base_second[of], Ints8::load(row_.data() + k));
-        // Cells are four edges high, with the scatterer near the middle: each cut of a curved
-        // surface into flat samples lies a little higher or lower, which must not change the
-        // scatterer.
-        const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
-        const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
-        number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
-        // The phase follows from the scatterer's own place. With the phase of another place in the
-        // cell, speckle would decorrelate faster than the aperture allows.
-        Floats8::load(along_first_.data() + k).store(block_.within[first].data() + k);
-        Floats8::load(along_second_.data() + k).store(block_.within[second].data() + k);
-        Floats8(0.5F).store(block_.within[axis].data() + k);
-    }
-    completed_ = run.end;
-}
 
 }  // namespace
 

@@ -78,24 +78,6 @@ ScattererCells scatterer_cells(double resolution_m, double width_rad, double ran
     return out;
 }
 
-void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
-    const Eigen::Matrix3f& R = sonar.R_world_sensor;
-    const Eigen::Vector3f s = sonar.sensor.cast<float>();
-    const auto place = [&](int axis, Floats& to) {
-        const float rx = R(axis, 0);
-        const float ry = R(axis, 1);
-        const float rz = R(axis, 2);
-        const float base = s[axis];
-        for (int k = 0; k < count; ++k) {
-            to[k] = std::fma(rx, pieces.x[k],
-                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
-        }
-    };
-    place(0, out.x);
-    place(1, out.y);
-    place(2, out.z);
-}
-
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out) {

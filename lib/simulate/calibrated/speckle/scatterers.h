@@ -36,12 +36,6 @@ struct SonarInScene {
     Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< relative to Scene::origin, m
 };
 
-/// The places of pieces in the world, relative to Scene::origin, m.
-struct WorldPlaces {
-    PatchBlock::Array<float> x, y, z;
-};
-void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out);
-
 /// A block of scatterers: pieces of surface of the size of their cells, the cells' numbers, and the
 /// scatterers' places within them, in edges; along x, y and z of the world.
 struct Scatterers {

@@ -9,8 +9,8 @@
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "simulate/calibrated/equation/seafloor_scattering.h"
+#include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/fourier.h"
-#include "simulate/calibrated/signal/normals.h"
 
 namespace sonarsim {
 
@@ -110,6 +110,29 @@ Floats8 field_at(const std::vector<float>& field, const Texture::Square& square,
     const Floats8 here = fma(along, near_next - near_here, near_here);
     const Floats8 there = fma(along, far_next - far_here, far_here);
     return fma(u - row, there - here, here);
+}
+
+/// The places of pieces in the world, relative to Scene::origin, m.
+struct WorldPlaces {
+    PatchBlock::Array<float> x, y, z;
+};
+
+void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
+    const Eigen::Matrix3f& R = sonar.R_world_sensor;
+    const Eigen::Vector3f s = sonar.sensor.cast<float>();
+    const auto place = [&](int axis, PatchBlock::Array<float>& to) {
+        const float rx = R(axis, 0);
+        const float ry = R(axis, 1);
+        const float rz = R(axis, 2);
+        const float base = s[axis];
+        for (int k = 0; k < count; ++k) {
+            to[k] = std::fma(rx, pieces.x[k],
+                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
+        }
+    };
+    place(0, out.x);
+    place(1, out.y);
+    place(2, out.z);
 }
 
 }  // namespace

@@ -22,8 +22,7 @@ enum class PowerForm {
 void add_drawn(PowerForm form, std::span<const float> powers, float gain, int column, PhiloxKey key,
                EchoGrid& grid);
 
-/// Turns the powers of a grid into independent complex amplitudes of `gain` times these mean
-/// powers.
+/// Turns the powers of a grid into independent amplitudes of `gain` times these mean powers.
 void draw_speckle(EchoGrid& grid, float gain, PhiloxKey key);
 
 /// The texture of surface: patches whose echoes are stronger or weaker, the same in every ping. It
@@ -45,8 +44,7 @@ class Texture {
         int octaves;     ///< the longest wave is its edge
         double edge_m() const { return size * texel_m; }
     };
-    /// Waves of 1.6 to 25.6 m, and of 25.6 to 205 m: eight texels or more in a wave, between which
-    /// the field is linear.
+    /// Waves of 1.6 to 25.6 and to 205 m, of eight texels or more, with a linear field between.
     static constexpr Square fine{128, 0.2, 4};
     static constexpr Square coarse{64, 3.2, 3};
     static constexpr int octaves = fine.octaves + coarse.octaves;
@@ -66,8 +64,8 @@ class Texture {
         float gain, offset;
     };
     std::vector<Strength> strengths_;  ///< [materials]
-    std::vector<float> fine_,
-        coarse_;  ///< [size + 1, size + 1], rows along x; the last repeat the first
+    /// [size + 1, size + 1], rows along x; the last repeat the first.
+    std::vector<float> fine_, coarse_;
 };
 
 }  // namespace sonarsim
