@@ -127,8 +127,7 @@ class ImageFormer {
     }
 
     /// Computes the echoes of a block of pieces: levels, range bins and columns of the grid.
-    /// Surface has the strengths of its map and its texture. `limits`: those of
-    /// PieceStrengths::apply().
+    /// Surface has its map's strengths and its texture. `limits`: as PieceStrengths::apply().
     void find(SampleKind kind, std::span<const Sample> samples, PatchBlock& pieces,
               const PointLimits* limits) {
         const bool is_surface = kind_of(kind).is_surface;

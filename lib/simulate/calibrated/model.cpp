@@ -35,8 +35,7 @@ constexpr double max_noise = 1e20;      // instrument_levels.h: echoes are at mo
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-/// The number of beams that may be traced as one: two if the array does not resolve them. More than
-/// two save hardly any time.
+/// The beams that may be traced as one: two if not resolved. More than two save hardly any time.
 int joinable_beams(double resolved_beams, int beams) {
     return resolved_beams >= 1.5 && beams % 2 == 0 ? 2 : 1;
 }
@@ -90,8 +89,7 @@ PointLimits target_cell(const BeamConfig& beam, double resolution_m) {
     return {depth, width, part(beam.elevation_width_deg)};
 }
 
-/// The noise power in a beam in each range bin, to a multiple of 8: `noise` before the gain, and
-/// that of the converter behind it.
+/// The noise power by range bin, to a multiple of 8: `noise`, and the converter's behind the gain.
 std::vector<double> row_noises(const std::vector<float>& row_gain, double noise,
                                double converter_noise_db) {
     const double converter =

@@ -22,8 +22,7 @@
 
 namespace sonarsim {
 
-/// The calibrated echo model, docs/calibrated.md: an instrument, ready to turn traced surface into
-/// the echo levels that it measures.
+/// The calibrated echo model, docs/calibrated.md: an instrument, ready to measure echo levels.
 struct CalibratedModel final : EchoModel {
     InstrumentConfig instrument;
     InstrumentLevels levels;

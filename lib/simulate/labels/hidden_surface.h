@@ -75,8 +75,7 @@ struct LineWidth {
     const View& view;
 };
 
-/// The numbers of parts into which the edges of a line's sample are divided, as a sample may span
-/// many beams and much of the elevation.
+/// The parts of the edges of a line's sample, which may span many beams and much elevation.
 struct LineParts {
     int u = 1, v = 1;
 };

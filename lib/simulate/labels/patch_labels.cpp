@@ -33,8 +33,7 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 /// Bins are computed in blocks of this many.
 constexpr int block = 16;
 
-/// Elevations and spreads of at most a block of bins, from the echo and its moments. Two loops
-/// without branches, so that they vectorise.
+/// Elevations and spreads of at most a block of bins, by the echo's moments. Both loops vectorise.
 void find_bins(const double* __restrict echo, const double* __restrict first,
                const double* __restrict second, int count, float* __restrict elevation,
                float* __restrict spread) {

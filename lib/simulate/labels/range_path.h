@@ -62,8 +62,7 @@ struct CoveredBins {
     std::array<double, at_once + 1> range_m, way;
 };
 
-/// Calls visit(covered) for the bins that the footprint covers, in order. Several bins at a time,
-/// so that way_to() vectorises.
+/// Calls visit(covered) for the bins that the footprint covers; several, so that loops vectorise.
 template <class Visit>
 void for_each_covered(const RangePath& path, const RangeBins& bins, Visit visit) {
     constexpr int at_once = CoveredBins::at_once;

@@ -32,8 +32,7 @@ struct CellReach {
     float count() const { return static_cast<float>((2 * lines + 1) * (2 * bins + 1)); }
 };
 
-/// A box of bins around an object, with a margin that may lie outside the frame, and a number for
-/// each of its bins, [lines, bins].
+/// A number for each bin, [lines, bins], of a box around an object, maybe beyond the frame.
 struct MaskWindow {
     std::uint16_t id = 0;   ///< the object's
     int line = 0, bin = 0;  ///< the first
@@ -85,8 +84,7 @@ void add_bright(const MaskFrame& frame, const std::vector<std::uint16_t>& bright
 /// closed and holes filled, but for bins of other bodies. Pieces below a cell are dropped.
 std::vector<std::uint16_t> outlined(const MaskFrame& frame, const std::vector<std::uint16_t>& ids);
 
-/// Drops the pieces without a bin that `visible`, PingLabels::visible_object, gives to their
-/// object: mirror images of it or in it.
+/// Drops mirror images: pieces without a bin that PingLabels::visible_object gives to their object.
 void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
                         std::vector<std::uint16_t>& ids);
 

@@ -19,8 +19,7 @@ struct TopTwo {
     std::span<float> first_echo = {}, second_echo = {};  ///< second_echo: only with `second`
 };
 
-/// Finds the keys with the largest echoes in every bin. Sources of one key are summed first. The
-/// lower key wins among equal echoes.
+/// Finds the keys with the largest echoes in every bin, summed by key; among equals the lowest.
 class TopTwoFinder {
   public:
     /// Sources of one key are added in the order in which they are given.

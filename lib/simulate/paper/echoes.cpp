@@ -21,7 +21,7 @@ struct Footprints {
     Floats height_m, area_m2, reflection;
     Vectors cell, cell_u, cell_v;  ///< the same in scatterer cells, if there is noise
 
-    Floats range_m, depth_u_m, depth_v_m;  ///< of the centre; extents in range of the half edges
+    Floats range_m, depth_u_m, depth_v_m;  ///< centre; extents in range of half edges
     Floats u, v;                           ///< whole numbers: pieces along either edge
     Floats half_m;                         ///< half the extent of a piece in range
     Floats shift_m;  ///< middle of that extent, relative to the centre of the piece

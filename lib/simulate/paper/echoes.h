@@ -57,8 +57,7 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
                    std::vector<std::uint32_t>* ends = nullptr);
 
 /// One piece per scatterer cell of edge `cell_m` that a footprint with half edges of length `u_m`
-/// and `v_m` spans, before rounding to whole numbers. Where this makes more than `most` pieces in
-/// all, fewer along both edges.
+/// and `v_m` spans, before rounding to whole numbers. At most `max_pieces` in all.
 inline PieceCounts one_piece_per_cell(float u_m, float v_m, float cell_m, float max_pieces) {
     const float u = std::max(2.0F * u_m / cell_m, 1.0F);
     const float v = std::max(2.0F * v_m / cell_m, 1.0F);

@@ -60,8 +60,7 @@ Slope slope_at(const Bathymetry& grid, const std::vector<float>& z, int row, int
             (at(row - 1, column) - at(row + 1, column)) / run};
 }
 
-/// The vertical exaggeration of the shading, chosen so that the RMS slope looks like 20 degrees: a
-/// sea floor is mostly flat.
+/// The vertical exaggeration of the shading, so that the RMS slope looks like 20 degrees.
 float stretch(const Bathymetry& grid, const std::vector<float>& z) {
     constexpr double typical = 0.36;
     double square = 0.0;

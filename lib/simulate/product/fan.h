@@ -64,8 +64,7 @@ struct FanFrame {
     double pixel_m = 0.0;
 };
 
-/// The frame of an image exactly `width_px` wide; a narrow sector is centred in it. 0 means one
-/// pixel per range bin, at most 1024.
+/// A frame `width_px` wide; a narrow sector is centred. 0: one pixel per range bin, at most 1024.
 FanFrame fan_frame(const Sonar& sonar, int width_px = 0);
 
 struct FanPlace {

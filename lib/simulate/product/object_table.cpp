@@ -83,8 +83,7 @@ std::optional<double> level_around(const ObjectInPing& visible, const LevelMap& 
     return sum / static_cast<double>(bins);
 }
 
-/// The bounding box of the visible footprints of each object that is no background, in the sensor's
-/// frame at the ping's time.
+/// The box around the visible footprints of each object that is no background, sensor frame.
 std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
                                                const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());

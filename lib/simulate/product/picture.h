@@ -32,8 +32,7 @@ void fill(Picture& picture, int x, int y, int width, int height, Rgb colour);
 
 enum class Align { left, middle, right };
 
-/// Writes capitals, digits, signs and a small m, seven pixels high, with their upper edge at y and
-/// the named end of the text at x.
+/// Writes capitals, digits, signs and m, seven pixels high: upper edge at y, the named end at x.
 void write(Picture& picture, int x, int y, std::string_view text, Align align, Rgb colour);
 
 int text_width(std::string_view text);
@@ -80,8 +79,7 @@ struct StripFrame {
     int height = 0;
 };
 
-/// The functions that draw a strip for people. Where pings are rows the axis is on top, where they
-/// are columns it is on the left.
+/// The functions that draw a strip. The axis is on top of rows of pings, on the left of columns.
 struct StripStyle {
     StripFrame (*frame)(const SonarConfig& config, int pings);
     /// The axis alone.

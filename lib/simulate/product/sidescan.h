@@ -23,14 +23,12 @@ struct Side {
 /// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
-/// The slant range of a column less its distance from nadir, at most half a bin to either side of
-/// 0: range_min may be no multiple of a bin.
+/// The slant range of a column less its distance from nadir: range_min may be no multiple of a bin.
 double column_offset_m(const SonarConfig& config);
 
 int waterfall_columns(const SonarConfig& config);
 
-/// The bin of a side-scan ping, [range bins, 2] like Ping::intensity, that each column shows; -1
-/// where the sonar does not listen.
+/// The bin of Ping::intensity, [range bins, 2], in each column; -1 where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
 /// Slant range of the first bottom return in a beam, m: the middle of its bin
@@ -45,8 +43,7 @@ struct Swath {
     double reach_m = 0.0;                               ///< ground range at range_max
 };
 
-/// The swath of a row of the waterfall. Nothing if the ping shows no bottom, or if the sonar's
-/// sides point straight up and down.
+/// The swath of a row; nothing if it shows no bottom, or if the sides point straight up and down.
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
                               std::span<const float> row);
 

@@ -27,8 +27,7 @@ struct RecordShape {
     bool upright = false;             ///< pings are columns: [range, ping]
     RecordPictures pictures = RecordPictures::none;
     StripStyle style = {};  ///< for a strip
-    /// The bin of the ping's image [range, beam] that each value shows; -1: none. Null: a record
-    /// has the bins of the sonar's one beam.
+    /// The bin of the image [range, beam] in each value, -1: none. Null: those of the one beam.
     std::vector<std::int32_t> (*bins)(const SonarConfig& config) = nullptr;
     /// Adds the description of the values to the sensor's block in dataset.json.
     void (*describe)(const Sonar& sonar, nlohmann::ordered_json& sensor) = nullptr;
@@ -69,8 +68,7 @@ struct KindOfSonar {
     RecordShape record = {};
     /// Completes the sonar of make_sonar(); null if nothing is left to do.
     void (*finish)(Sonar& sonar) = nullptr;
-    /// Adds the measured values of a ping to its metadata, in addition to the altitude; null for a
-    /// sonar that measures nothing.
+    /// Adds the values of a ping besides the altitude to its metadata; null: nothing is measured.
     void (*measure)(const PingView& view, nlohmann::ordered_json& json) = nullptr;
 };
 

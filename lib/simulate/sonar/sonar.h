@@ -16,8 +16,7 @@
 
 namespace sonarsim {
 
-/// A sonar of the kind that its configuration names, see simulate/sonar/kinds.h.
-/// `water` is for the calibrated model.
+/// A sonar of the kind that its configuration names. `water` is for the calibrated model.
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
@@ -66,8 +65,7 @@ std::size_t stage_count(const Sonar& sonar);
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
                               const PingKey& key);
 
-/// The settings of a mission's `engine` and `octree` keys. For `auto` see also
-/// simulate/assembly/assemble.h.
+/// The settings of the keys `engine` and `octree`. For `auto` see simulate/assembly/assemble.h.
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
 EngineSettings engine_settings(const Mission& mission);
 

@@ -182,8 +182,7 @@ void Beamformer::add_weights(const LineArray& array, double samples,
     double between = 0.0;
     double noise = 0.0;
     for (int k = -reach; k <= reach; ++k) {
-        // An echo between two columns is shared by both, which multiplies by a triangle's
-        // transform; the weight undoes it.
+        // The weight undoes the triangle's transform by which columns share an echo.
         const double triangle = sinc(static_cast<double>(k) / size);
         const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
         weights_.push_back({.re = static_cast<float>(weight.real()),

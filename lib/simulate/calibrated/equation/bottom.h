@@ -67,8 +67,7 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
 
 void append(const Backscatter& tabled, Scattering& scattering);
 
-/// The material with `lambert_db` = 10 log mu, power reflection at normal incidence and facets of
-/// slope s; s = 0 has no facets.
+/// `lambert_db`: 10 log mu; power reflection at normal incidence; slope s of facets, 0: none.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);
 

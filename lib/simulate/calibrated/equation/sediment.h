@@ -26,8 +26,7 @@ struct SedimentScattering {
     std::vector<bool> has;     ///< [materials] true if in `volume`
 };
 
-/// `whole` is the scattering of the same materials. A sea bed whose tail is a small part of a bin
-/// is not divided; nothing if none is.
+/// `whole`: of the same materials. Beds whose tail is a small part of a bin stay; nothing: all do.
 std::optional<SedimentScattering> sediment_scattering(std::span<const Material> materials,
                                                       double frequency_hz, const Water& water,
                                                       double bin_m, const Scattering& whole);

@@ -19,8 +19,7 @@ constexpr int steps = static_cast<int>(last_octave - first_octave) * steps_per_o
 constexpr double ln_2 = 0.6931471805599453;
 constexpr float log2_e = 1.44269504F;
 
-/// A distribution of delivered values: ln(-ln(1 - F)), which is ln x of the same rank, at values
-/// in equal steps of their logarithm.
+/// A distribution of delivered values, in equal steps of ln: ln(-ln(1 - F)), ln x of that rank.
 struct Ranks {
     std::vector<double> ln_value, ln_x;
 

@@ -47,8 +47,7 @@ std::vector<std::uint16_t> companded(std::span<const float> powers, const Receiv
 ///
 ///     r_k = d r_(k-1) + (1 - d) share p_(k-1),    d = 10^(-6 t / T60), t = 2 dr / c per bin,
 ///
-/// with p the power of an echo and r that of the tail, one recursion along range (Kuttruff, Room
-/// Acoustics, for the exponential law).
+/// with p the power of an echo and r that of the tail (Kuttruff, Room Acoustics).
 struct Reverberation {
     float share = 0.0F;  ///< 0: none
     float decay = 0.0F;  ///< d

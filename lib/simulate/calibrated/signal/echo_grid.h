@@ -15,8 +15,7 @@ struct SineGrid {
 };
 
 /// The echoes before the receiver: a complex amplitude or, in its real part, a power for every
-/// range bin and every column of a sine grid. A column is contiguous, since echoes come beam by
-/// beam; 8 bins make a cache line.
+/// range bin and every column of a sine grid. Columns are contiguous, as echoes come beam by beam.
 class EchoGrid {
   public:
     EchoGrid(int rows, int columns);

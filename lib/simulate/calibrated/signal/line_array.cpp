@@ -29,8 +29,7 @@ double pattern(double pedestal, double t) {
     return pattern_parts(t).at(pedestal);
 }
 
-/// The pattern from t = 1 to 5, which contains its highest side lobe: the main lobe ends between 1
-/// and 2, and side lobes fall soon after.
+/// The pattern from t = 1 to 5, which has the highest side lobe: the main lobe ends below 2.
 std::vector<PatternParts> side_lobe_parts() {
     std::vector<PatternParts> out;
     for (int k = 200; k <= 1000; ++k)

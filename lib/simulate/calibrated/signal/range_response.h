@@ -40,8 +40,7 @@ struct PulseBand {
     /// length T and energy E gives the ratio E / N0 of echo to white noise; weights lose the factor
     /// mean(w^2) / mean(w)^2. So the bandwidth is this factor over T, T = 1 / B without a code.
     double noise_hz = 0.0;
-    /// The equivalent length of the pulse: the integral of its square. An echo of surface has the
-    /// energy of this length of surface.
+    /// The integral of the pulse's square: surface of this length has the energy of an echo.
     double length_m = 0.0;
 };
 

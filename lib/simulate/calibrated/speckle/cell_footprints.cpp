@@ -74,8 +74,7 @@ T along(std::int32_t axis, T x, T y, T z) {
 }
 
 /// The squared edge of cells for a surface at a range and a grazing angle of `sine`. On the surface
-/// a resolution cell is longer than in range by one over the cosine of that angle, and cells are
-/// larger by the same factor.
+/// resolution cells are longer than in range by one over its cosine, and so are these.
 float wanted_edge2(const ScattererCells& cells, float range, float sine) {
     const float cosine2 = 1.0F - sine * sine;
     const float longer2 =
@@ -190,8 +189,7 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         out.row_end[k] = static_cast<std::int32_t>(any_area ? end : begin);
         out.min_inner[k] = std::floor(0.5F * (inner - inner_reach));
         out.max_inner[k] = std::floor(0.5F * (inner + inner_reach));
-        // The rows follow the edge that extends further along the outer axis. This edge extends at
-        // most twice as far along the inner axis.
+        // Rows follow the edge that extends further along the outer axis, half as far at least.
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);
         const float slope = by_u ? inner_u / outer_u : inner_v / outer_v;
         const float other = by_u ? inner_v - slope * outer_v : inner_u - slope * outer_u;

@@ -38,8 +38,7 @@ Floats8 place_on_line(Ints8 line, std::int32_t level, std::int32_t axis, int alo
     return to_floats(bits & Ints8(0xFFFFU)) * 0x1p-16F;
 }
 
-/// Cells under the samples of a batch. Column and row count from the base of their sample's
-/// footprint, along its two axes.
+/// Cells under the samples of a batch, by column and row from the base of the sample's footprint.
 struct CellList {
     std::vector<std::int32_t> column, row;
     int count = 0;
@@ -212,8 +211,7 @@ class Search {
         return front.count;
     }
 
-    /// Completes the scatterers that were found on a sample, eight at a time: lanes beyond the last
-    /// one are overwritten later.
+    /// Completes the scatterers of a sample, eight at a time; later ones overwrite spare lanes.
     void complete(const Run& run) {
         PatchBlock& pieces = block_.pieces;
         const CellFootprints& p = footprints_;

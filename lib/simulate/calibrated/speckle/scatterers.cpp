@@ -31,8 +31,7 @@ void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
     }
 }
 
-/// The two-way phase of each scatterer, in turns. It is computed in double: at 40 m and 2 MHz the
-/// last bit of a float is 0.07 rad.
+/// The two-way phases, turns. In double: at 40 m and 2 MHz the last bit of a float is 0.07 rad.
 void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, double turns_per_m,
                  Floats& turns) {
     for (int k = 0; k < count; ++k) {

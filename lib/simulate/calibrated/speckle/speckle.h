@@ -17,8 +17,7 @@ enum class PowerForm {
 };
 
 /// Adds the mean powers of a column's bins. Bins are read and written up to a multiple of 8. Powers
-/// below 0 count as 0. `gain`: a factor on the powers of amplitudes, whose draws are a function of
-/// the key, the bin and the column.
+/// below 0 count as 0. `gain`: a factor on the powers of amplitudes, drawn by key, bin and column.
 void add_drawn(PowerForm form, std::span<const float> powers, float gain, int column, PhiloxKey key,
                EchoGrid& grid);
 

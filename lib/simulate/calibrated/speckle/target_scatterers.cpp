@@ -12,8 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Sums over pieces, each times its cross-section: 1, the range, x, y, z, and 1 if the piece
-/// belongs to the highlight.
+/// Sums over pieces, times cross-section: 1, range, x, y, z, and 1 if it belongs to the highlight.
 using Sums = Eigen::Array<float, 8, 1>;
 enum Term : int { section, range, x, y, z, highlight };
 
