@@ -176,10 +176,10 @@ TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
         Bathymetry grid = make_bathymetry(bounds, cell_m);
         for (const Eigen::Vector3d& point : points)
             grid.add(point);
-        const auto sum = std::accumulate(grid.count.begin(), grid.count.end(), 0U);
+        const auto sum = std::accumulate(grid.weight.begin(), grid.weight.end(), 0.0);
         CHECK(sum == points.size());
         grid.add({100.0, 0.0, -1.0});  // outside: dropped, not clamped
-        CHECK(std::accumulate(grid.count.begin(), grid.count.end(), 0U) == sum);
+        CHECK(std::accumulate(grid.weight.begin(), grid.weight.end(), 0.0) == sum);
     }
 }
 
@@ -221,7 +221,7 @@ TEST_CASE("bathymetry: cells of any size, anywhere, have a picture") {
         bounds.add({far, far, far});
         Bathymetry grid = make_bathymetry(bounds, 1.0);
         grid.add({far, far, far});
-        REQUIRE(grid.count[0] == 1);
+        REQUIRE(grid.weight[0] == 1.0);
         CHECK(draw_bathymetry(grid).width > 0);
     }
     // 0.4 * 0.05 is above 0.02 in doubles: halving the bar that way never ended.

@@ -47,8 +47,7 @@ struct WaterColumn {
     std::vector<Layer> layers;  ///< strengths of layers that overlap add
     EqualDirections directions;
     int joined_columns = 1;  ///< columns of a line array's grid that receive their water as one
-    /// The power of 1 m^2 per m^3 of water in one steradian, by range bin; 0 beyond, to a multiple
-    /// of 8.
+    /// The power of 1 m^2 per m^3 of water in one steradian, by range bin; 0 up to a multiple of 8.
     std::vector<float> row_power;
 };
 

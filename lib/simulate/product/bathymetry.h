@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "simulate/product/picture.h"
@@ -14,16 +13,20 @@ inline constexpr double map_quality = 0.5;
 
 inline constexpr double max_map_cells = 1 << 24;
 
+/// The ground that a map covers, and the number of its points.
 struct SoundingBounds {
-    Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< world x, y, m
-    Eigen::Vector2d max = Eigen::Vector2d::Zero();
+    Eigen::AlignedBox2d box;  ///< world x, y, m
     std::uint64_t count = 0;
 
-    void add(const Eigen::Vector3d& position);
+    void add(const Eigen::Vector3d& position) {
+        box.extend(position.head<2>());
+        ++count;
+    }
 };
 
-/// Mean height of the soundings in each cell of a north-up grid: row 0 has the greatest y, column 0
-/// the least x. Cells begin at multiples of their size, so that grids of one size fit together.
+/// Weighted means on a north-up grid, such as the heights of soundings: row 0 has the greatest y,
+/// column 0 the least x. Cells begin at multiples of their size, so that grids of one size fit
+/// together.
 struct Bathymetry {
     double cell_m = 0.0;
     double west_m = 0.0;        ///< world x of the left edge
@@ -32,14 +35,13 @@ struct Bathymetry {
     double first_row = 0.0;     ///< number of the upper row along y
     int columns = 0;
     int rows = 0;
-    std::vector<double> sum;           ///< [rows, columns], sums of world z
-    std::vector<std::uint32_t> count;  ///< [rows, columns]
+    /// [rows, columns] Sums of weights, and of values times them.
+    std::vector<double> weight, sum;
 
-    /// The index of the cell that holds a point, world x, y.
-    std::optional<std::size_t> cell_at(const Eigen::Vector2d& point) const;
-    void add(const Eigen::Vector3d& position);
-    /// The mean heights [rows, columns], m; NaN in cells without soundings.
-    std::vector<float> mean_z() const;
+    /// Adds the value z at x, y of the world.
+    void add(const Eigen::Vector3d& point, double more_weight = 1.0);
+    /// The means [rows, columns]; NaN in cells without any.
+    std::vector<float> mean() const;
 };
 
 /// An empty grid over the bounds. With `cell_m` 0 the cell size is 1, 2 or 5

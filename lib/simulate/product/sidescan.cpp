@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "simulate/product/bottom.h"
 
@@ -27,13 +26,6 @@ double echo_at_ground(const Sonar& sonar, const SwathRow& row, double ground_m, 
     const double altitude_m = row.swath.altitude_m;
     return echo_at(sonar, row.values, std::sqrt(ground_m * ground_m + altitude_m * altitude_m),
                    side);
-}
-
-void add_point(const Eigen::Vector2d& at, double echo, double weight, Mosaic& mosaic) {
-    const std::optional<std::size_t> cell = mosaic.grid.cell_at(at);
-    if (!cell) return;
-    mosaic.weight[*cell] += weight;
-    mosaic.grid.sum[*cell] += weight * echo;
 }
 
 }  // namespace
@@ -105,17 +97,10 @@ void add_bounds(const Swath& swath, SoundingBounds& bounds) {
     }
 }
 
-std::vector<float> Mosaic::mean() const {
-    std::vector<float> echoes(weight.size(), std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t k = 0; k < weight.size(); ++k) {
-        if (weight[k] > 0.0) echoes[k] = static_cast<float>(grid.sum[k] / weight[k]);
-    }
-    return echoes;
-}
-
-void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row, Mosaic& mosaic) {
+void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row,
+                 Bathymetry& mosaic) {
     constexpr double cos_10_degrees = 0.98480775301220806;
-    const double cell_m = mosaic.grid.cell_m;
+    const double cell_m = mosaic.cell_m;
     const bool is_near = before.swath.port.dot(row.swath.port) > cos_10_degrees &&
                          (row.swath.nadir_m - before.swath.nadir_m).norm() < 10.0 * cell_m;
     const SwathRow& first = is_near ? before : row;
@@ -132,8 +117,9 @@ void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row
             // A vehicle that stands still covers ground, too.
             const double width = std::max(way.norm(), 0.05 * cell_m) / points;
             for (double k = 0.5; k < points; ++k) {
-                add_point(from + k / points * way, echo + (1.0 - k / points) * change,
-                          4.0 * share * (1.0 - share) * width, mosaic);
+                const Eigen::Vector2d at = from + k / points * way;
+                mosaic.add({at.x(), at.y(), echo + (1.0 - k / points) * change},
+                           4.0 * share * (1.0 - share) * width);
             }
         }
     }

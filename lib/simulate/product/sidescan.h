@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "simulate/ping/sonar.h"
@@ -54,22 +53,13 @@ struct SwathRow {
     std::vector<float> values;
 };
 
-/// Weighted means of echoes on a north-up grid. A point at the share u of the reach weighs
-/// 4 u (1 - u) times the ground that it stands for: least at nadir, where the bottom is bright, and
-/// at the swath's end, so that no line begins at a seam.
-struct Mosaic {
-    Bathymetry grid;             ///< `sum` holds weighted echoes; `count` is not used
-    std::vector<double> weight;  ///< [rows, columns], sums of weights
-
-    explicit Mosaic(Bathymetry cells) : grid(std::move(cells)), weight(grid.sum.size(), 0.0) {}
-    /// The echoes [rows, columns]; NaN where there are none.
-    std::vector<float> mean() const;
-};
-
 /// Adds the ground between two rows that follow each other, in steps of half a bin across and a
 /// quarter of a cell along, over which the echo changes linearly. A point at ground range g has the
-/// echo at slant range sqrt(g^2 + altitude^2). Rows whose headings differ by 10 degrees, or that
+/// echo at slant range sqrt(g^2 + altitude^2). At the share u of the reach it weighs 4 u (1 - u)
+/// times the ground that it stands for: least at nadir, where the bottom is bright, and at the
+/// swath's end, so that no line begins at a seam. Rows whose headings differ by 10 degrees, or that
 /// are ten cells apart, have no ground between them; the later one is added alone.
-void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row, Mosaic& mosaic);
+void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row,
+                 Bathymetry& mosaic);
 
 }  // namespace sonarsim

@@ -123,7 +123,7 @@ void write_bathymetry(const WriterContext& context, const SoundingSource& source
     for_each_sounding(source, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });
-    write_map(context, folder, "bathymetry", grid, grid.mean_z(),
+    write_map(context, folder, "bathymetry", grid, grid.mean(),
               {{"file", "bathymetry.tif"},
                {"values", "mean world z of the soundings in a cell, m; NaN where there are none"}},
               {{"axes",

@@ -120,7 +120,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     for_each_row(context, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
-    Mosaic mosaic(make_bathymetry(bounds, mosaic_cell_m(context)));
+    Bathymetry mosaic = make_bathymetry(bounds, mosaic_cell_m(context));
     std::optional<SwathRow> before;
     for_each_row(context, rows, [&](const RecordedRow& row) {
         if (!row.swath) return before.reset();
@@ -128,7 +128,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
         add_between(context.sonar(), before ? *before : now, now, mosaic);
         before = std::move(now);
     });
-    write_map(context, folder, "mosaic", mosaic.grid, mosaic.mean(),
+    write_map(context, folder, "mosaic", mosaic, mosaic.mean(),
               {{"file", "mosaic.tif"},
                {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
                {"weight", "4 u (1 - u) of the ground at the share u of a swath's reach"},
