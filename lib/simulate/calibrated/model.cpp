@@ -35,11 +35,6 @@ constexpr double max_noise = 1e20;      // instrument_levels.h: echoes are at mo
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-/// The beams that may be traced as one: two if not resolved. More than two save hardly any time.
-int joinable_beams(double resolved_beams, int beams) {
-    return resolved_beams >= 1.5 && beams % 2 == 0 ? 2 : 1;
-}
-
 /// The guard beams of a line array: from the view to the borders of `view_azimuth_deg`. They are as
 /// wide as the view's beams or, if that is at least twice as wide, as a step of the array's sine
 /// grid, which the array does not resolve.
@@ -48,7 +43,9 @@ GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
     const double bin_rad = view.azimuth_rad / view.beams;
     const LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
     const double array_step_rad = arcsin(sine_grid(array, {0.0}).step);
-    const int joined = joinable_beams(radians(beam.width_deg) / bin_rad, view.beams);
+    // Two beams that the array does not resolve are traced as one; more save hardly any time.
+    const bool resolved = radians(beam.width_deg) / bin_rad < 1.5;
+    const int joined = !resolved && view.beams % 2 == 0 ? 2 : 1;
     if (array_step_rad < 2.0 * bin_rad) {
         // Whole joined beams; rounding of degrees to radians must not cost one.
         const double count = std::floor(side_rad / (joined * bin_rad) + 1e-6);
@@ -102,20 +99,6 @@ std::vector<double> row_noises(const std::vector<float>& row_gain, double noise,
     return out;
 }
 
-std::vector<float> noise_values(const std::vector<float>& row_gain,
-                                std::span<const double> row_noise) {
-    std::vector<float> out;
-    for (std::size_t i = 0; i < row_gain.size(); ++i)
-        out.push_back(std::min(row_gain[i] * static_cast<float>(row_noise[i]), max_value));
-    return out;
-}
-
-/// The value that is white in pictures of a fan: the 99 % quantile of the speckle of sand at half
-/// of the range, but at most full scale. No such rule covers what other sonars show.
-double white_of_fan(const InstrumentLevels& levels) {
-    return std::min(1.0, speckle_p99 * power_of_db(levels.sand_db - levels.full_scale_db));
-}
-
 /// Sets the properties of the model but for its guard beams.
 void set_info(CalibratedModel& model, const View& view) {
     const ReceiverConfig& receiver = model.instrument.receiver;
@@ -138,7 +121,12 @@ void set_info(CalibratedModel& model, const View& view) {
         info.cell.beams = radians(model.instrument.beam.width_deg) / cones.mean_width();
     info.raw_bits = receiver.bits;
     const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
-    if (is_fan) info.white = white_of_fan(model.levels);
+    // The 99 % quantile of the speckle of sand at half of the range, but at most full scale. No
+    // such rule covers what other sonars show.
+    if (is_fan) {
+        info.white = std::min(
+            1.0, speckle_p99 * power_of_db(model.levels.sand_db - model.levels.full_scale_db));
+    }
 }
 
 std::optional<double> wind_over(const Scene& scene) {
@@ -178,7 +166,10 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     const std::vector<double> row_noise =
         row_noises(model.row_gain, noise, receiver.converter_noise_db);
-    model.noise_values = noise_values(model.row_gain, row_noise);
+    for (std::size_t i = 0; i < model.row_gain.size(); ++i) {
+        const auto power = static_cast<float>(row_noise[i]);
+        model.noise_values.push_back(std::min(model.row_gain[i] * power, max_value));
+    }
     if (beam.aperture == Aperture::line) {
         model.beams =
             array_beams(beam, sines, range_bins(view), model.wavelength_m, row_noise, noise_filter);

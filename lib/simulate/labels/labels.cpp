@@ -177,16 +177,6 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
     if (request.shares) find_shares(surfaces, out);
 }
 
-PingLabels blank_labels(const View& view, const LabelRequest& request) {
-    PingLabels labels;
-    labels.range_bins = view.range_bins;
-    labels.beams = view.beams;
-    for_each_label(request, [&](auto member, bool wanted, auto blank) {
-        if (wanted) (labels.*member).assign(labels.size(), blank);
-    });
-    return labels;
-}
-
 /// Finds the shadows of all objects and those of objects that are no background, as far as a
 /// request needs them, from one trace of the hidden surface. `sums`: the echoes of the ping.
 void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const View& view,
@@ -249,7 +239,12 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                        const SceneObjects& objects, const VisibilityEngine& engine,
                        const LabelRequest& request) {
     const View& view = settings.view;
-    PingLabels labels = blank_labels(view, request);
+    PingLabels labels;
+    labels.range_bins = view.range_bins;
+    labels.beams = view.beams;
+    for_each_label(request, [&](auto member, bool wanted, auto blank) {
+        if (wanted) (labels.*member).assign(labels.size(), blank);
+    });
     SurfaceSums surfaces(view, objects, request.outlines);
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene,

@@ -185,10 +185,9 @@ struct PatchFinders {
     std::optional<ElevationFinder> elevation;
     std::optional<HeightFinder> height;
 
-    /// Adds the echoes of a patch. `row_of(echo)`: the row of sums of its beam.
-    template <class RowOf>
+    /// Adds the echoes of a patch; `one_row`: there is one row of sums, not one for each beam.
     void add(const SurfaceEchoes& echoes, const EchoPatch& patch, const RangeBins& bins,
-             RowOf row_of) {
+             bool one_row) {
         const auto own = std::span(echoes.patch_echoes)
                              .subspan(patch.echo_begin, patch.echo_end - patch.echo_begin);
         const RangePath path = range_path(patch);
@@ -200,8 +199,9 @@ struct PatchFinders {
             if (has_height) height->cover(covered);
             for (const PatchEcho& echo : own) {
                 if (!(echo.echo > 0.0)) continue;
-                if (elevation) elevation->add(row_of(echo), echo.echo, covered);
-                if (has_height) height->add(row_of(echo), echo.echo, covered);
+                const std::uint32_t row = one_row ? 0 : echo.beam;
+                if (elevation) elevation->add(row, echo.echo, covered);
+                if (has_height) height->add(row, echo.echo, covered);
             }
         });
     }
@@ -222,12 +222,12 @@ void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlac
         finders.height.emplace(rows, bins.count, *bottom, is_bottom, places);
     if (!sorted) {
         for (const EchoPatch& patch : echoes.patches)
-            finders.add(echoes, patch, bins, [](const PatchEcho& echo) { return echo.beam; });
+            finders.add(echoes, patch, bins, false);
     }
     for (int j = 0; j < view.beams; ++j) {
         if (sorted) {
             for (std::uint32_t k = echoes.patch_begin[j]; k < echoes.patch_begin[j + 1]; ++k)
-                finders.add(echoes, echoes.patches[k], bins, [](const PatchEcho&) { return 0U; });
+                finders.add(echoes, echoes.patches[k], bins, true);
         }
         const auto own = [&](std::vector<float>& all) {
             return std::span(all).subspan(static_cast<std::size_t>(j) * view.range_bins,

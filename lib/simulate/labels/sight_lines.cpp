@@ -66,13 +66,6 @@ float parts_of_beams(const Eigen::Vector3f& half_edge, const SightLine& line,
     return parts - wider;
 }
 
-/// The change of a plane's range along the half edge of the footprint in front of it.
-float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
-                  const Eigen::Vector3f& normal, float range_m) {
-    const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
-    return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
-}
-
 /// The parts of an edge of another sample: the surface behind each is four bins deep, or the edge
 /// spans two beams where nothing is met behind the sample's middle. The plane n . x = h is met at
 /// the range r = b h / (n . (p + s e)), b that of the sample, so |dr / ds| = r^2 |n . e| / (b h).
@@ -167,8 +160,11 @@ void divide(const SightLine& line, const LineParts& parts, const LineWidth& widt
 float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal,
                   const LineWidth& width) {
     const Sample& sample = *line.sample;
+    // The change of the plane's range along the half edge of the footprint in front of it.
     const auto along = [&](const Eigen::Vector3f& edge) {
-        return range_along(edge, line.direction, line.before_m, normal, range_m);
+        const Eigen::Vector3f turn =
+            (edge - line.direction * line.direction.dot(edge)) / line.before_m;
+        return std::fabs(range_m * normal.dot(turn) / normal.dot(line.direction));
     };
     const float half = line.share_u * along(sample.edge_u) + line.share_v * along(sample.edge_v);
     const float max_half = width.cones.exist()

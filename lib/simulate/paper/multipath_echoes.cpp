@@ -24,13 +24,9 @@ struct Piece {
     CellName cell;
 };
 
-struct Cut {
-    int u = 1;
-    int v = 1;
-};
-
 /// The pieces of a bounce: none is wider than a beam or, with range noise, a scatterer cell.
-Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
+std::pair<int, int> cut(const BouncePath& b, const Sample& sample, float bin_m,
+                        const ScattererLattice& lattice) {
     PieceCounts wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
@@ -43,7 +39,7 @@ Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererL
     const auto rounded_up = [](float pieces) {
         return static_cast<int>(std::ceil(std::clamp(pieces, 1.0F, max_pieces_per_edge)));
     };
-    return {.u = rounded_up(wanted.u), .v = rounded_up(wanted.v)};
+    return {rounded_up(wanted.u), rounded_up(wanted.v)};
 }
 
 /// Adds the pieces of a bounce to `out`, without those outside the field of view.

@@ -119,12 +119,6 @@ struct DirectEchoes {
     }
 };
 
-/// Adds the multipath echoes of beam j to its bins. Returns the number out of range.
-std::uint64_t accumulate_beam(const MultipathEchoes& bounced, int j, const RangeBins& bins,
-                              BinSums& sums) {
-    return accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
-}
-
 }  // namespace
 
 void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
@@ -158,7 +152,8 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
             direct.add(at_normal_incidence(traced.samples.beam(j), wanted_streaks.min_cosine),
                        areas.normal);
         }
-        ping.counts.out_of_range += accumulate_beam(bounced, j, bins, sums);
+        ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
+                                               bounced.beam_begin[j + 1], bins, sums);
         ping.counts.occupied_bins += mean_of_bins(sums, columns.next());
         columns.write();
     }

@@ -135,8 +135,7 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
 KernelTable make_kernel(double extent, int unit) {
     const double window = std::max(0.0, extent - 1.0);
     const int points = 1 + static_cast<int>(std::ceil(16.0 * window));
-    const int bins =
-        3 + static_cast<int>(std::ceil(window));  // bins that can have a weight at once
+    const int bins = 3 + static_cast<int>(std::ceil(window));  // that may have a weight
     KernelTable table;
     table.taps = (bins + unit - 1) / unit * unit;
     table.weights.assign(static_cast<std::size_t>(KernelTable::phases) * table.taps, 0.0F);

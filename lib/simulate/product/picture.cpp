@@ -82,6 +82,16 @@ const Glyph& glyph_of(char letter) {
 /// The small m of the metre, the font's only small letter.
 constexpr Glyph metre{0x00, 0x00, 0x1a, 0x15, 0x15, 0x15, 0x15};
 
+/// The largest power of ten that is at most `value`.
+double power_of_ten_in(double value) {
+    double power = 1.0;
+    while (power > value)
+        power /= 10.0;
+    while (power * 10.0 <= value)
+        power *= 10.0;
+    return power;
+}
+
 }  // namespace
 
 Rgb blend(std::span<const Rgb> stops, float share) {
@@ -129,20 +139,6 @@ void write(Picture& picture, int x, int y, std::string_view text, Align align, R
         left += glyph_step;
     }
 }
-
-namespace {
-
-/// The largest power of ten that is at most `value`.
-double power_of_ten_in(double value) {
-    double power = 1.0;
-    while (power > value)
-        power /= 10.0;
-    while (power * 10.0 <= value)
-        power *= 10.0;
-    return power;
-}
-
-}  // namespace
 
 double round_up_125(double value) {
     const double power = power_of_ten_in(value);

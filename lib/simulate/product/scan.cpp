@@ -1,19 +1,13 @@
 #include "simulate/product/scan.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/units.h"
 
 namespace sonarsim {
-
-namespace {
-
-bool goes_round(const SonarConfig& config) {
-    return config.sector_deg >= 360.0;
-}
-
-}  // namespace
 
 int scan_steps(const SonarConfig& config) {
     return std::max(1, static_cast<int>(std::floor(config.sector_deg / config.step_deg + 0.5)));
@@ -26,15 +20,12 @@ std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings) {
 
 std::string scan_file_name(const std::string& stem, std::size_t sweep,
                            const std::string& extension) {
-    constexpr std::size_t digits = 4;
-    const std::string number = std::to_string(sweep);
-    const std::string zeros(digits - std::min(digits, number.size()), '0');
-    return stem + "_" + zeros + number + extension;
+    return fmt::format("{}_{:04}{}", stem, sweep, extension);
 }
 
 int scan_step(const SonarConfig& config, std::size_t ping) {
     const auto steps = static_cast<std::size_t>(scan_steps(config));
-    const bool back = !goes_round(config) && (ping / steps) % 2 == 1;
+    const bool back = config.sector_deg < 360.0 && (ping / steps) % 2 == 1;
     const auto step = static_cast<int>(ping % steps);
     return back ? static_cast<int>(steps) - 1 - step : step;
 }
@@ -49,7 +40,7 @@ std::vector<double> scan_edges_rad(const SonarConfig& config) {
 
 std::vector<double> scan_angles_rad(const SonarConfig& config) {
     const std::vector<double> edges = scan_edges_rad(config);
-    const std::size_t sweeps = goes_round(config) ? 1 : 2;
+    const std::size_t sweeps = config.sector_deg < 360.0 ? 2 : 1;
     std::vector<double> angles(sweeps * scan_steps(config));
     for (std::size_t ping = 0; ping < angles.size(); ++ping) {
         const int step = scan_step(config, ping);

@@ -13,19 +13,15 @@ double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
 }
 
-/// The echo at a slant range, 0 beyond the row. `side`: 1 is port, -1 starboard.
-float echo_at(const Sonar& sonar, std::span<const float> row, double slant_m, int side) {
-    const auto half = static_cast<std::ptrdiff_t>(row.size() / 2);
-    const double column_m = slant_m - column_offset_m(sonar.config);
-    const auto bin = static_cast<std::ptrdiff_t>(column_m / sonar.settings.view.bin_m());
-    if (bin >= half) return 0.0F;
-    return row[static_cast<std::size_t>(side > 0 ? half - 1 - bin : half + bin)];
-}
-
+/// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.
 double echo_at_ground(const Sonar& sonar, const SwathRow& row, double ground_m, int side) {
     const double altitude_m = row.swath.altitude_m;
-    return echo_at(sonar, row.values, std::sqrt(ground_m * ground_m + altitude_m * altitude_m),
-                   side);
+    const double slant_m = std::sqrt(ground_m * ground_m + altitude_m * altitude_m);
+    const auto half = static_cast<std::ptrdiff_t>(row.values.size() / 2);
+    const double column_m = slant_m - column_offset_m(sonar.config);
+    const auto bin = static_cast<std::ptrdiff_t>(column_m / sonar.settings.view.bin_m());
+    if (bin >= half) return 0.0;
+    return row.values[static_cast<std::size_t>(side > 0 ? half - 1 - bin : half + bin)];
 }
 
 }  // namespace

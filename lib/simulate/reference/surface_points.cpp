@@ -32,10 +32,6 @@ bool may_be_in_view(const View& view, const Eigen::Vector3d& centre, double radi
            azimuth - half_angle(radius, ground) <= 0.5 * view.azimuth_rad;
 }
 
-double beam_width_m(const View& view, double range_m) {
-    return view.shape == ViewShape::fan ? range_m * view.azimuth_rad / view.beams : range_m;
-}
-
 double fraction(double x) {
     return x - std::floor(x);
 }
@@ -86,7 +82,9 @@ void add_share(const Scene& scene, const View& view, const LocalPose& pose, Surf
     const double length = 2.0 * radius;
     // The extent of a triangle beyond the view counts no bins.
     const double bins = std::min<double>(view.range_bins, length / view.bin_m());
-    const double beams = std::min<double>(view.beams, length / beam_width_m(view, nearest));
+    const double beam_m =
+        view.shape == ViewShape::fan ? nearest * view.azimuth_rad / view.beams : nearest;
+    const double beams = std::min<double>(view.beams, length / beam_m);
     share.area_m2 = static_cast<float>(area);
     share.share = static_cast<float>(1.0 + bins + beams);
     shares.push_back(share);

@@ -18,7 +18,6 @@ namespace {
 constexpr int axis_height = 22;
 constexpr Rgb nadir_colour{150, 190, 220};
 
-/// The range axis, metres on either side of nadir.
 StripFrame waterfall_frame(const SonarConfig& config, int pings) {
     return {.axis_height = axis_height,
             .width = waterfall_columns(config) + 1,

@@ -116,6 +116,29 @@ std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar
     throw std::logic_error("an echo model is not made here");
 }
 
+TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                    const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
+                    const Terms& terms) {
+    TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
+    if (const auto& particles = sonar.settings.particles) {
+        const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
+        add_particles(*particles, time_s, sonar.settings.view, engine, T_world_sensor, motion,
+                      traced.samples);
+    }
+    return traced;
+}
+
+/// The group in which each beam of a fan transmits.
+std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams) {
+    std::vector<int> groups(beams);
+    for (int j = 0; j < beams; ++j) {
+        groups[j] = shutter.order == ShutterOrder::interleaved
+                        ? j % shutter.groups
+                        : static_cast<int>(std::int64_t{j} * shutter.groups / beams);
+    }
+    return groups;
+}
+
 }  // namespace
 
 Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
@@ -165,33 +188,6 @@ SonarAtPose::SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32
     if (kind.finish) kind.finish(drawn);
     drawn.settings.model = make_echo_model(drawn, kind, mission.water);
 }
-
-namespace {
-
-TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                    const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
-                    const Terms& terms) {
-    TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
-    if (const auto& particles = sonar.settings.particles) {
-        const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
-        add_particles(*particles, time_s, sonar.settings.view, engine, T_world_sensor, motion,
-                      traced.samples);
-    }
-    return traced;
-}
-
-/// The group in which each beam of a fan transmits.
-std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams) {
-    std::vector<int> groups(beams);
-    for (int j = 0; j < beams; ++j) {
-        groups[j] = shutter.order == ShutterOrder::interleaved
-                        ? j % shutter.groups
-                        : static_cast<int>(std::int64_t{j} * shutter.groups / beams);
-    }
-    return groups;
-}
-
-}  // namespace
 
 double group_period_s(const Sonar& sonar, double sound_speed_m_s) {
     const double period_s = sonar.config.shutter.period_s;

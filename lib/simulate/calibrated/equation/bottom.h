@@ -50,9 +50,6 @@ struct AngularTable {
         return 1.0 - root * root;
     }
     static float value(const float* entries, float sine);
-    static float value(const std::vector<float>& entries, float sine) {
-        return value(entries.data(), sine);
-    }
 };
 
 struct Scattering {
@@ -98,9 +95,9 @@ inline float AngularTable::value(const float* entries, float sine) {
 
 inline float Backscatter::between(float sine_in, float sine_out, float half) const {
     if (!diffuse.empty()) {
-        return std::sqrt(AngularTable::value(diffuse, sine_in) *
-                         AngularTable::value(diffuse, sine_out)) +
-               AngularTable::value(specular, half);
+        return std::sqrt(AngularTable::value(diffuse.data(), sine_in) *
+                         AngularTable::value(diffuse.data(), sine_out)) +
+               AngularTable::value(specular.data(), half);
     }
     const float near = std::max(1e-6F, half * half);
     return lambert * sine_in * sine_out +
@@ -109,7 +106,8 @@ inline float Backscatter::between(float sine_in, float sine_out, float half) con
 
 inline float Backscatter::at(float sine) const {
     if (!diffuse.empty())
-        return AngularTable::value(diffuse, sine) + AngularTable::value(specular, sine);
+        return AngularTable::value(diffuse.data(), sine) +
+               AngularTable::value(specular.data(), sine);
     const float s2 = sine * sine;
     const float near = std::max(1e-6F, s2);
     return lambert * s2 + facet / (near * near) * exp_neg(inverse_slope2 * (1.0F - near) / near);

@@ -8,16 +8,11 @@
 
 namespace sonarsim {
 
-namespace {
-
-// As a share of a bin: below it less than e^-4 of the energy lies behind the surface's bin.
-constexpr double shortest_lag = 0.25;
-
-}  // namespace
-
 std::optional<SedimentScattering> sediment_scattering(std::span<const Material> materials,
                                                       double frequency_hz, const Water& water,
                                                       double bin_m, const Scattering& whole) {
+    // As a share of a bin: below it less than e^-4 of the energy lies behind the surface's bin.
+    constexpr double shortest_lag = 0.25;
     const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
     SedimentScattering out{.surface = whole, .volume = {}, .lag_m = {}, .has = {}};
     out.volume.materials.resize(materials.size());

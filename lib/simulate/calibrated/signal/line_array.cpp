@@ -25,10 +25,6 @@ PatternParts pattern_parts(double t) {
     return {sinc(t), 0.5 * (sinc(t) + 0.5 * (sinc(t + 1.0) + sinc(t - 1.0)))};
 }
 
-double pattern(double pedestal, double t) {
-    return pattern_parts(t).at(pedestal);
-}
-
 /// The pattern from t = 1 to 5, which has the highest side lobe: the main lobe ends below 2.
 std::vector<PatternParts> side_lobe_parts() {
     std::vector<PatternParts> out;
@@ -57,7 +53,7 @@ double half_power(double pedestal) {
     double high = 1.0;
     for (int k = 0; k < 60; ++k) {
         const double middle = 0.5 * (low + high);
-        const double value = pattern(pedestal, middle);
+        const double value = pattern_parts(middle).at(pedestal);
         (value * value > 0.5 ? low : high) = middle;
     }
     return low;
@@ -139,7 +135,7 @@ std::complex<double> LineArray::weight(double x) const {
 }
 
 double line_pattern(const LineArray& array, double u) {
-    return pattern(array.pedestal, u * array.wavelengths);
+    return pattern_parts(u * array.wavelengths).at(array.pedestal);
 }
 
 LineArray line_array(double width_rad, double side_lobe_db) {

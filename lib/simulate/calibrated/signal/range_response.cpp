@@ -129,8 +129,6 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
 
 PulseBand pulse_band(const PulseConfig& pulse, double bin_m, double sound_speed_m_s) {
     const double resolution_m = pulse.resolution_m > 0.0 ? pulse.resolution_m : bin_m;
-    // An array of any small half-power width: its length in wavelengths times this width is k.
-    constexpr double unit_width = 1e-3;
     const LineArray band = line_array(unit_width, pulse.side_lobe_db);
     const double k = band.wavelengths * unit_width;
     PulseBand out;

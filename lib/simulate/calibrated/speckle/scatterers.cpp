@@ -48,12 +48,6 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
     }
 }
 
-/// The strengths of scatterers: exponentially distributed.
-void find_strengths(const Words& words, int count, Floats& strength) {
-    for (int k = 0; k < count; ++k)
-        strength[k] = -natural_log(unit_float(words[k]));
-}
-
 }  // namespace
 
 ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
@@ -87,7 +81,8 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
     philox_pairs(for_strength.data(), for_phase.data(), count, key);
     find_phases(block, count, sonar, cells.turns_per_m, turns);
     Floats strength;
-    find_strengths(for_strength, count, strength);
+    for (int k = 0; k < count; ++k)
+        strength[k] = -natural_log(unit_float(for_strength[k]));
     for (int k = 0; k < count; ++k) {
         const float amplitude = std::sqrt(echoes.power[k] * strength[k]);
         const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);
