@@ -190,7 +190,7 @@ TEST_CASE("sea bed: the Kirchhoff part sends back a quarter of what is reflected
     const auto by_table = [](const SeafloorScattering& formula) {
         const Backscatter bed = backscatter(formula);
         return over_directions(
-            [&](float sine, double) { return AngularTable::value(bed.specular, sine); });
+            [&](float sine, double) { return AngularTable::value(bed.specular.data(), sine); });
     };
     for (const double phi : {2.5, 5.5, 8.0}) {
         for (const double frequency_hz : {1e4, 1e5, 4e5}) {
