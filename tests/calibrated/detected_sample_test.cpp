@@ -1,5 +1,4 @@
 #include "simulate/calibrated/receiver/receiver_chain.h"
-
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,6 +1,5 @@
-#include "simulate/calibrated/equation/bottom.h"
-
 #include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/equation/bottom.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
