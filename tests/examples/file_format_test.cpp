@@ -23,8 +23,8 @@ std::string encode_nearest(const FinishedPing& finished) {
     return csv;
 }
 
-std::optional<Writer> make_nearest_writer(const WriterContext&) {
-    return Writer{.per_ping = PingFile{"nearest", ".csv"}, .encode = encode_nearest};
+Writer make_nearest_writer(const WriterContext&) {
+    return {.per_ping = PingFile{"nearest", ".csv"}, .encode = encode_nearest};
 }
 
 }  // namespace
@@ -46,13 +46,13 @@ TEST_CASE("example of a file format: the nearest echo of each beam") {
     const TracedPing traced = trace(sonar, assembly.scene, *engine, Pose{}, 0);
     const Ping ping = form_image(traced, sonar.settings, assembly.scene, {}, {});
 
-    const auto writer = make_nearest_writer({mission, assembly, 0, 1});
-    const std::string csv = writer->encode({.id = {},
-                                            .sonar = sonar,
-                                            .traced = traced,
-                                            .ping = ping,
-                                            .measured = {},
-                                            .clipped_pixels = 0});
+    const Writer writer = make_nearest_writer({mission, assembly, 0, 1});
+    const std::string csv = writer.encode({.id = {},
+                                           .sonar = sonar,
+                                           .traced = traced,
+                                           .ping = ping,
+                                           .measured = {},
+                                           .clipped_pixels = 0});
     std::string expected = "beam,range_m\n";
     for (int j = 0; j < ping.beams; ++j) {
         const auto azimuth = [&](int edge) { return std::fabs(sonar.azimuth_edges_rad[edge]); };

@@ -9,7 +9,7 @@
 #include "support/npy_data.h"
 
 namespace sonarsim {
-std::optional<Writer> make_strip_writer(const WriterContext& context);
+Writer make_strip_writer(const WriterContext& context);
 }
 
 using namespace sonarsim;
@@ -119,7 +119,7 @@ TEST_CASE("series: more pings than a picture can be long are averaged") {
     const std::vector<float> one(4, 1.0F);
     file.write(1, std::as_bytes(std::span(one)));
     file.write(columns - 1, std::as_bytes(std::span(one)));
-    make_strip_writer({mission, assembly, 0, columns})->write_products(file, temporary.path);
+    make_strip_writer({mission, assembly, 0, columns}).write_products(file, temporary.path);
     constexpr int width = max_picture_rows / 2 + 2;
     const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
                                                  OIIO::TypeDesc::UINT16);

@@ -90,20 +90,26 @@ using PingOutput = std::variant<PingFile, PingRecord>;
 PingRecord record_of_kind(const WriterContext& context, const std::string& stem, const char* type,
                           std::string label = {}, std::string ids = {});
 
+/// STEM_NNNN with each extension, for every sweep of a scanning sonar.
+std::vector<std::string> sweep_files(const WriterContext& context, const std::string& stem,
+                                     const std::vector<std::string>& extensions);
+
 /// The numbers in a ping's file or record.
 struct PingNumbers {
     std::variant<std::vector<float>, std::vector<std::uint16_t>, std::vector<std::uint8_t>> values;
     std::vector<std::size_t> shape;  ///< [rows, columns], or [values] of a record
 };
 
+/// The values of an image [range bins, beams] as the rows and columns of a sonar with images, else
+/// as its record; `blank` where that shows no bin.
 template <class T>
-PingNumbers make_numbers(std::vector<T> values, int rows, int columns) {
-    return {std::move(values), {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)}};
-}
-template <class T>
-PingNumbers make_numbers(std::vector<T> record) {
-    const std::size_t size = record.size();
-    return {std::move(record), {size}};
+PingNumbers numbers_of(const Sonar& sonar, std::vector<T> image, T blank) {
+    const KindOfSonar& kind = kind_of(sonar.config.kind);
+    const View& view = sonar.settings.view;
+    if (kind.has_images)
+        return {std::move(image), {std::size_t(view.range_bins), std::size_t(view.beams)}};
+    return {record_values(kind.record, sonar.config, image, blank),
+            {kind.record.values(sonar.config)}};
 }
 /// The numbers as the bytes of a record.
 inline std::string record_bytes(const PingNumbers& numbers) {

@@ -1,27 +1,24 @@
 #include <algorithm>
 #include <iterator>
-#include <optional>
-#include <span>
 #include <utility>
 #include <variant>
 
 #include "core/error.h"
 #include "output/dataset/writer.h"
+#include "simulate/product/scan.h"
 
 namespace sonarsim {
 
-// The makers of the formats. They return nothing when the mission does not ask for the format or
-// the sonar has no such output.
-std::optional<Writer> make_polar_writer(const WriterContext& context);
-std::optional<Writer> make_image_writer(const WriterContext& context);
-std::optional<Writer> make_raw_writer(const WriterContext& context);
-std::optional<Writer> make_fan_writer(const WriterContext& context);
-std::optional<Writer> make_stages_writer(const WriterContext& context);
-std::optional<Writer> make_strip_writer(const WriterContext& context);
-std::optional<Writer> make_soundings_writer(const WriterContext& context);
-std::optional<Writer> make_scan_writer(const WriterContext& context);
-std::optional<Writer> make_raw_records_writer(const WriterContext& context);
-std::optional<Writer> make_meta_writer(const WriterContext& context);
+// The writers of the formats.
+Writer make_polar_writer(const WriterContext& context);
+Writer make_image_writer(const WriterContext& context);
+Writer make_raw_writer(const WriterContext& context);
+Writer make_fan_writer(const WriterContext& context);
+Writer make_stages_writer(const WriterContext& context);
+Writer make_strip_writer(const WriterContext& context);
+Writer make_soundings_writer(const WriterContext& context);
+Writer make_scan_writer(const WriterContext& context);
+Writer make_meta_writer(const WriterContext& context);
 
 /// The writers of all labels that `output.labels` asks for. An imaging or profiling sonar has a
 /// file per ping, NAME/NNNNNN.png or .npy with the rows and columns of the image; the others have a
@@ -30,30 +27,9 @@ std::vector<Writer> make_label_writers(const WriterContext& context);
 
 namespace {
 
-using MakeWriter = std::optional<Writer> (*)(const WriterContext&);
-
-/// Every format that a dataset may hold.
-constexpr MakeWriter formats[] = {
-    make_polar_writer,        //
-    make_image_writer,        //
-    make_raw_writer,          //
-    make_fan_writer,          //
-    make_stages_writer,       //
-    make_strip_writer,        //
-    make_soundings_writer,    //
-    make_scan_writer,         //
-    make_raw_records_writer,  //
-    make_meta_writer,         //
-};
-
-/// The writers of some formats and of the labels.
-Writers writers_of(std::span<const MakeWriter> makers, const WriterContext& context) {
-    Writers writers;
-    for (const MakeWriter make : makers) {
-        if (auto writer = make(context)) writers.push_back(*std::move(writer));
-    }
-    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
-    return writers;
+/// True if the mission asks for the output of the sonar's instrument, and its model has one.
+bool has_raw(const WriterContext& context) {
+    return context.mission.output.raw && context.sonar().settings.model->info.raw_bits > 0;
 }
 
 /// InputError when the mission lists the label `fan` and writes no fan. `true` asks only for the
@@ -81,12 +57,32 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
 }
 
 Writers make_array_writers(const WriterContext& context) {
-    constexpr MakeWriter raw_values[] = {make_raw_writer, make_raw_records_writer};
-    return writers_of(raw_values, context);
+    Writers writers = make_label_writers(context);
+    if (has_raw(context)) writers.insert(writers.begin(), make_raw_writer(context));
+    return writers;
 }
 
 Writers make_writers(const WriterContext& context) {
-    return writers_of(formats, context);
+    const OutputConfig& output = context.mission.output;
+    const bool images = context.kind().has_images;
+    const bool raw = has_raw(context);
+    const RecordPictures pictures = context.kind().record.pictures;
+    Writers writers;
+    const auto add = [&](bool wanted, Writer (*make)(const WriterContext&)) {
+        if (wanted) writers.push_back(make(context));
+    };
+    add(images && output.polar, make_polar_writer);
+    add(images && output.image, make_image_writer);
+    add(images && raw, make_raw_writer);
+    add(images && output.fan, make_fan_writer);
+    add(images && output.stages, make_stages_writer);
+    add(pictures == RecordPictures::strip, make_strip_writer);
+    add(context.sonar().config.kind == SonarKind::profiling, make_soundings_writer);
+    add(pictures == RecordPictures::sweeps, make_scan_writer);
+    add(!images && raw, make_raw_writer);
+    add(true, make_meta_writer);
+    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
+    return writers;
 }
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
@@ -114,6 +110,17 @@ PingRecord record_of_kind(const WriterContext& context, const std::string& stem,
         record.format.fortran_order = true;
     }
     return record;
+}
+
+std::vector<std::string> sweep_files(const WriterContext& context, const std::string& stem,
+                                     const std::vector<std::string>& extensions) {
+    std::vector<std::string> files;
+    for (std::size_t sweep = 0; sweep < scan_sweeps(context.sonar().config, context.pings);
+         ++sweep) {
+        for (const std::string& extension : extensions)
+            files.push_back(scan_file_name(stem, sweep, extension));
+    }
+    return files;
 }
 
 Writer array_writer(PingOutput per_ping, std::function<PingNumbers(const FinishedPing&)> numbers,

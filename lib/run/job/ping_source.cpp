@@ -20,14 +20,6 @@ std::filesystem::path file_of(const Writer& writer) {
     return file.name + file.extension;
 }
 
-/// Takes the intensities out of `ping`.
-PingNumbers take_image(const Sonar& sonar, Ping& ping) {
-    const KindOfSonar& kind = kind_of(sonar.config.kind);
-    if (kind.has_images)
-        return make_numbers(std::move(ping.intensity), ping.range_bins, ping.beams);
-    return make_numbers(record_values(kind.record, sonar.config, ping.intensity, 0.0F));
-}
-
 }  // namespace
 
 PingSource::PingSource(const Mission& of, Assembly assembled)
@@ -54,7 +46,7 @@ PingInMemory PingSource::ping(const PingId& id) const {
         }
         out.metadata = json_text(describe_ping(mission, assembly, finished));
     });
-    out.image = take_image(*rendered.sonar, rendered.ping);
+    out.image = numbers_of(*rendered.sonar, std::move(rendered.ping.intensity), 0.0F);
     return out;
 }
 

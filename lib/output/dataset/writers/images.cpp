@@ -10,20 +10,18 @@
 namespace sonarsim {
 
 /// polar/NNNNNN.npy: float32 [range, azimuth], the intensities as simulated.
-std::optional<Writer> make_polar_writer(const WriterContext& context) {
-    if (!context.kind().has_images || !context.mission.output.polar) return std::nullopt;
-    return Writer{.per_ping = PingFile{"polar", ".npy", PingArray::bins},
-                  .encode = [](const FinishedPing& finished) {
-                      const Ping& ping = finished.ping;
-                      return npy_bytes(ping.intensity, ping.range_bins, ping.beams);
-                  }};
+Writer make_polar_writer(const WriterContext&) {
+    return {.per_ping = PingFile{"polar", ".npy", PingArray::bins},
+            .encode = [](const FinishedPing& finished) {
+                const Ping& ping = finished.ping;
+                return npy_bytes(ping.intensity, ping.range_bins, ping.beams);
+            }};
 }
 
 /// image/NNNNNN.png: 16 bits [range, azimuth], 65535 * intensity / full_scale.
-std::optional<Writer> make_image_writer(const WriterContext& context) {
-    if (!context.kind().has_images || !context.mission.output.image) return std::nullopt;
+Writer make_image_writer(const WriterContext& context) {
     const double white = context.full_scale();
-    return Writer{
+    return {
         .per_ping = PingFile{"image", ".png", PingArray::bins, {}, "polar"},
         .encode =
             [white](const FinishedPing& finished) {
@@ -41,32 +39,30 @@ std::optional<Writer> make_image_writer(const WriterContext& context) {
 
 /// fan/NNNNNN.png: grey, 8 bits, as an operator sees it: of the calibrated model the values of
 /// raw/.
-std::optional<Writer> make_fan_writer(const WriterContext& context) {
-    if (!context.kind().has_images || !context.mission.output.fan) return std::nullopt;
+Writer make_fan_writer(const WriterContext& context) {
     const auto map = context.assembly.fans->map(context.sonar());
     const FanFrame frame = map->frame;
     const double white = context.full_scale();
     const double apex_row = context.sonar().settings.view.range_max_m / frame.pixel_m;
-    return Writer{.per_ping = PingFile{"fan", ".png", PingArray::fan, {}, "fan"},
-                  .encode =
-                      [=](const FinishedPing& finished) {
-                          const auto fan = display_fan(*map, *finished.sonar.settings.model,
-                                                       finished.ping, white);
-                          return png_bytes(fan, frame.width, frame.height);
-                      },
-                  .describe =
-                      [=](Json& sensor) {
-                          sensor["fan"] = {{"width_px", frame.width},
-                                           {"height_px", frame.height},
-                                           {"pixel_m", frame.pixel_m},
-                                           {"apex_px", {0.5 * frame.width, apex_row}}};
-                      }};
+    return {.per_ping = PingFile{"fan", ".png", PingArray::fan, {}, "fan"},
+            .encode =
+                [=](const FinishedPing& finished) {
+                    const auto fan =
+                        display_fan(*map, *finished.sonar.settings.model, finished.ping, white);
+                    return png_bytes(fan, frame.width, frame.height);
+                },
+            .describe =
+                [=](Json& sensor) {
+                    sensor["fan"] = {{"width_px", frame.width},
+                                     {"height_px", frame.height},
+                                     {"pixel_m", frame.pixel_m},
+                                     {"apex_px", {0.5 * frame.width, apex_row}}};
+                }};
 }
 
 /// stages/NNNNNN.png: 8 bits, a fan for each stage of the echo model side by side: direct echoes,
 /// then with multipath, then with one random term of the model after the other.
-std::optional<Writer> make_stages_writer(const WriterContext& context) {
-    if (!context.kind().has_images || !context.mission.output.stages) return std::nullopt;
+Writer make_stages_writer(const WriterContext& context) {
     const auto map = context.assembly.fans->map(context.sonar());
     const auto width = static_cast<std::size_t>(map->frame.width);
     const auto height = static_cast<std::size_t>(map->frame.height);
@@ -87,16 +83,16 @@ std::optional<Writer> make_stages_writer(const WriterContext& context) {
         }
         return png_bytes(picture, whole, map->frame.height);
     };
-    return Writer{.per_ping = PingFile{"stages", ".png", PingArray::none, {}, "stages"},
-                  .encode = encode};
+    return {.per_ping = PingFile{"stages", ".png", PingArray::none, {}, "stages"},
+            .encode = encode};
 }
 
 /// meta/NNNNNN.json: time, poses, seed, counts and what was measured.
-std::optional<Writer> make_meta_writer(const WriterContext& context) {
-    return Writer{.per_ping = PingFile{"meta", ".json"},
-                  .encode = [context](const FinishedPing& finished) {
-                      return json_text(describe_ping(context.mission, context.assembly, finished));
-                  }};
+Writer make_meta_writer(const WriterContext& context) {
+    return {.per_ping = PingFile{"meta", ".json"},
+            .encode = [context](const FinishedPing& finished) {
+                return json_text(describe_ping(context.mission, context.assembly, finished));
+            }};
 }
 
 }  // namespace sonarsim

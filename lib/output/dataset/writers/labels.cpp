@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -141,25 +140,14 @@ constexpr LabelFile annotation_records[] = {
     {Label::objects, silhouette_record, ids<&PingLabels::silhouette>, {}, {}, "instances"},
 };
 
-/// The numbers of a ping [range bins, beams] as the rows and columns of the sonar's image, or as
-/// its record; `blank` where a record shows no bin.
-template <class T>
-PingNumbers shaped(const WriterContext& context, std::vector<T> values, T blank) {
-    const View& view = context.sonar().settings.view;
-    if (context.kind().has_images)
-        return make_numbers(std::move(values), view.range_bins, view.beams);
-    return make_numbers(
-        record_values(context.kind().record, context.sonar().config, values, blank));
-}
-
 PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
                           const FinishedPing& finished) {
     const PingLabels& labels = finished.labels->bins;
-    if (file.terms) return shaped(context, image_of(context, finished, *file.terms), 0.0F);
+    const Sonar& sonar = context.sonar();
+    if (file.terms) return numbers_of(sonar, image_of(context, finished, *file.terms), 0.0F);
     if (file.ids_of)
-        return shaped<std::uint16_t>(context, rows_of_range(file.ids_of(labels), labels), 0);
-    return shaped(context, rows_of_range(file.floats_of(labels), labels),
-                  std::numeric_limits<float>::quiet_NaN());
+        return numbers_of<std::uint16_t>(sonar, rows_of_range(file.ids_of(labels), labels), 0);
+    return numbers_of(sonar, rows_of_range(file.floats_of(labels), labels), std::nanf(""));
 }
 
 /// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in
@@ -180,10 +168,10 @@ Writer label_writer(const WriterContext& context, const LabelFile& file) {
 /// fan_NAME/NNNNNN.png: a label for each pixel of the fan.
 Writer fan_label_writer(const WriterContext& context, const LabelFile& file) {
     const FanFrame frame = fan_frame(context.sonar());
-    const auto pixels = [&file, frame](const FinishedPing& finished) {
-        return make_numbers(fan_values(finished.labels->fan_bins->by_row,
-                                       file.ids_of(finished.labels->bins), std::uint16_t{0}),
-                            frame.height, frame.width);
+    const auto pixels = [&file, frame](const FinishedPing& finished) -> PingNumbers {
+        return {fan_values(finished.labels->fan_bins->by_row, file.ids_of(finished.labels->bins),
+                           std::uint16_t{0}),
+                {static_cast<std::size_t>(frame.height), static_cast<std::size_t>(frame.width)}};
     };
     return array_writer(PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
                         pixels, PngFilter::up);

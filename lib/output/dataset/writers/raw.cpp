@@ -8,19 +8,17 @@ namespace sonarsim {
 
 namespace {
 
-/// Bytes of a value that the instrument of the calibrated model delivers; 0 if the mission or the
-/// model has none.
-int raw_bytes(const WriterContext& context) {
-    const int bits = context.sonar().settings.model->info.raw_bits;
-    if (!context.mission.output.raw || bits == 0) return 0;
-    return bits > 8 ? 2 : 1;
+/// True if a value of the sonar's instrument has one byte, not two.
+bool has_bytes(const Sonar& sonar) {
+    return sonar.settings.model->info.raw_bits <= 8;
 }
 
-/// Values of an instrument, as bytes if they have one byte each.
-PingNumbers raw_numbers(std::vector<std::uint16_t> values, int bytes,
-                        std::vector<std::size_t> shape) {
-    if (bytes == 2) return {std::move(values), std::move(shape)};
-    return {std::vector<std::uint8_t>(values.begin(), values.end()), std::move(shape)};
+/// The output of the instrument of the calibrated model.
+PingNumbers raw_numbers(const Sonar& sonar, const Ping& ping) {
+    PingNumbers numbers = numbers_of<std::uint16_t>(sonar, sonar.settings.model->raw(ping), 0);
+    if (!has_bytes(sonar)) return numbers;
+    const auto& values = std::get<std::vector<std::uint16_t>>(numbers.values);
+    return {std::vector<std::uint8_t>(values.begin(), values.end()), std::move(numbers.shape)};
 }
 
 /// Makes the pictures of raw.npy, whose numbers are of type T.
@@ -71,44 +69,26 @@ void write_raw_pictures(const WriterContext& context, const RecordFile& records,
 }  // namespace
 
 /// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
-std::optional<Writer> make_raw_writer(const WriterContext& context) {
-    const int bytes = raw_bytes(context);
-    if (bytes == 0 || !context.kind().has_images) return std::nullopt;
-    const View& view = context.sonar().settings.view;
-    return array_writer(
-        PingFile{"raw", ".png", PingArray::bins, {}, "raw"},
-        [bytes, &view, &model = *context.sonar().settings.model](const FinishedPing& finished) {
-            return raw_numbers(
-                model.raw(finished.ping), bytes,
-                {static_cast<std::size_t>(view.range_bins), static_cast<std::size_t>(view.beams)});
-        });
-}
-
-/// raw.npy: 8 or 16 bits, the output of the calibrated model's instrument, in the shape of the
-/// sonar's other records. raw.png is the same as a picture; a scanning sonar has a picture [range,
-/// step] for each sweep, raw_0000.png and so on. Values of an instrument have no mean: where
-/// several pings share a row of the picture, it shows the first of them.
-std::optional<Writer> make_raw_records_writer(const WriterContext& context) {
-    const int bytes = raw_bytes(context);
-    if (bytes == 0 || context.kind().has_images) return std::nullopt;
-    const RecordShape& shape = context.kind().record;
-    const SonarConfig& config = context.sonar().config;
-    Writer writer = array_writer(
-        record_of_kind(context, "raw", bytes == 1 ? "|u1" : "<u2", "raw"),
-        [=, &shape, &config](const FinishedPing& f) {
-            const std::vector<std::uint16_t> raw = context.sonar().settings.model->raw(f.ping);
-            return raw_numbers(record_values<std::uint16_t>(shape, config, raw, 0), bytes,
-                               {shape.values(config)});
-        });
-    if (shape.pictures == RecordPictures::sweeps) {
-        for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep)
-            writer.products.push_back(scan_file_name("raw", sweep, ".png"));
-    } else {
+/// For sonars without images raw.npy, in the shape of their other records. raw.png is the same as a
+/// picture; a scanning sonar has a picture [range, step] for each sweep, raw_0000.png and so on.
+/// Values of an instrument have no mean: where several pings share a row of the picture, it shows
+/// the first of them.
+Writer make_raw_writer(const WriterContext& context) {
+    const bool bytes = has_bytes(context.sonar());
+    const auto numbers = [&sonar = context.sonar()](const FinishedPing& finished) {
+        return raw_numbers(sonar, finished.ping);
+    };
+    if (context.kind().has_images)
+        return array_writer(PingFile{"raw", ".png", PingArray::bins, {}, "raw"}, numbers);
+    Writer writer =
+        array_writer(record_of_kind(context, "raw", bytes ? "|u1" : "<u2", "raw"), numbers);
+    if (context.kind().record.pictures == RecordPictures::sweeps)
+        writer.products = sweep_files(context, "raw", {".png"});
+    else
         writer.products = {"raw.png"};
-    }
     writer.write_products = [=](const RecordFile& records, const std::filesystem::path& folder) {
-        bytes == 1 ? write_raw_pictures<std::uint8_t>(context, records, folder)
-                   : write_raw_pictures<std::uint16_t>(context, records, folder);
+        bytes ? write_raw_pictures<std::uint8_t>(context, records, folder)
+              : write_raw_pictures<std::uint16_t>(context, records, folder);
     };
     return writer;
 }

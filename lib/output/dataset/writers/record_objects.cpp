@@ -252,10 +252,8 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
 
 void add_record_objects(const WriterContext& context, Writer& writer) {
     const bool is_strip = context.kind().record.pictures == RecordPictures::strip;
-    const std::size_t sweeps = is_strip ? 0 : scan_sweeps(context.sonar().config, context.pings);
-    if (is_strip) writer.products = {record_objects_name};
-    for (std::size_t k = 0; k < sweeps; ++k)
-        writer.products.push_back(scan_file_name("objects", k, ".json"));
+    writer.products = is_strip ? std::vector<std::string>{record_objects_name}
+                               : sweep_files(context, "objects", {".json"});
     writer.write_products = [context, is_strip](const RecordFile&,
                                                 const std::filesystem::path& folder) {
         if (is_strip)

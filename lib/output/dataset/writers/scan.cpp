@@ -35,18 +35,9 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
 /// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
 /// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
 /// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
-std::optional<Writer> make_scan_writer(const WriterContext& context) {
-    const RecordShape& shape = context.kind().record;
-    if (shape.pictures != RecordPictures::sweeps) return std::nullopt;
-    const SonarConfig& config = context.sonar().config;
-    const std::string stem(shape.name);
+Writer make_scan_writer(const WriterContext& context) {
+    const std::string stem(context.kind().record.name);
     const auto map = context.assembly.fans->map(whole_scan(context.sonar()));
-    const auto steps = static_cast<std::size_t>(scan_steps(config));
-    std::vector<std::string> products;
-    for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
-        for (const char* extension : {".npy", ".png"})
-            products.push_back(scan_file_name(stem, sweep, extension));
-    }
     const auto describe = [=](Json& sensor) {
         const Sonar& sonar = context.sonar();
         if (context.kind().record.describe) context.kind().record.describe(sonar, sensor);
@@ -55,18 +46,18 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
                                       {"file", file},
                                       {"per", "sweep"},
                                       {"boxes_of", file},
-                                      {"pings", steps},
+                                      {"pings", scan_steps(sonar.config)},
                                       {"radius_px", sonar.config.range_max_m / map->frame.pixel_m},
                                       {"width_px", map->frame.width}});
     };
-    return Writer{.per_ping = record_of_kind(context, stem, "<f4"),
-                  .products = std::move(products),
-                  .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
-                  .write_products =
-                      [=](const RecordFile& records, const std::filesystem::path& folder) {
-                          write_displays(context, *map, records, folder);
-                      },
-                  .describe = describe};
+    return {.per_ping = record_of_kind(context, stem, "<f4"),
+            .products = sweep_files(context, stem, {".npy", ".png"}),
+            .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
+            .write_products =
+                [=](const RecordFile& records, const std::filesystem::path& folder) {
+                    write_displays(context, *map, records, folder);
+                },
+            .describe = describe};
 }
 
 }  // namespace sonarsim

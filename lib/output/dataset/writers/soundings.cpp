@@ -31,15 +31,6 @@ std::vector<SoundingLabel> labels_of(const OutputConfig& output) {
     return labels;
 }
 
-/// The soundings of a sensor, and the times of its pings.
-struct SoundingSource {
-    const RecordFile& records;
-    std::size_t beams;
-    std::uint32_t every;
-    const Trajectory& trajectory;
-    std::vector<SoundingLabel> labels;
-};
-
 /// Numbers per sounding in a record before its labels: range, x, y, z and quality.
 constexpr std::size_t numbers_of_sounding = 5;
 
@@ -53,16 +44,17 @@ struct RecordedSounding {
 };
 
 /// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
-void for_each_sounding(const SoundingSource& source,
+void for_each_sounding(const WriterContext& context, const RecordFile& records,
                        const std::function<void(const RecordedSounding&)>& visit) {
-    const std::size_t count = numbers_of_sounding + source.labels.size();
-    std::vector<double> fields(source.beams * count);
-    for (std::size_t k = 0; k < source.records.records(); ++k) {
-        source.records.read(k, std::as_writable_bytes(std::span(fields)));
-        for (std::size_t beam = 0; beam < source.beams; ++beam) {
+    const Sonar& sonar = context.sonar();
+    const std::size_t count = numbers_of_sounding + labels_of(context.mission.output).size();
+    std::vector<double> fields(sonar.settings.view.beams * count);
+    for (std::size_t k = 0; k < records.records(); ++k) {
+        records.read(k, std::as_writable_bytes(std::span(fields)));
+        for (std::size_t beam = 0; beam * count < fields.size(); ++beam) {
             const auto f = std::span<const double>(fields).subspan(beam * count, count);
             if (std::isnan(f[0])) continue;
-            visit({k * source.every,
+            visit({k * static_cast<std::size_t>(sonar.config.every),
                    beam,
                    f[0],
                    {f[1], f[2], f[3]},
@@ -83,20 +75,21 @@ std::string csv_line(const RecordedSounding& s, double time_s) {
                        s.labels.empty() ? "" : ",", fmt::join(s.labels, ","));
 }
 
-void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
+void write_soundings(const WriterContext& context, const RecordFile& records,
+                     const std::filesystem::path& folder) {
     StreamedFile csv(folder / "soundings.csv");
     std::string header = "pose,time_s,beam,range_m,x_m,y_m,z_m,quality";
     std::string properties =
         "property double x\nproperty double y\nproperty double z\n"
         "property float quality\n";
-    for (const SoundingLabel& label : source.labels) {
+    for (const SoundingLabel& label : labels_of(context.mission.output)) {
         header += std::string(",") + label.name;
         properties += std::string("property uint ") + label.name + "\n";
     }
     csv.append(header + "\n");
     std::uint64_t count = 0;
-    for_each_sounding(source, [&](const RecordedSounding& s) {
-        csv.append(csv_line(s, source.trajectory[s.pose].t_s));
+    for_each_sounding(context, records, [&](const RecordedSounding& s) {
+        csv.append(csv_line(s, context.assembly.trajectory[s.pose].t_s));
         ++count;
     });
     csv.finish();
@@ -104,7 +97,7 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     StreamedFile ply(folder / "soundings.ply");
     ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
                "\n" + properties + "end_header\n");
-    for_each_sounding(source, [&](const RecordedSounding& s) {
+    for_each_sounding(context, records, [&](const RecordedSounding& s) {
         ply.append(record_bytes(std::vector{s.position.x(), s.position.y(), s.position.z()}));
         ply.append(record_bytes(std::vector{static_cast<float>(s.quality)}));
         ply.append(record_bytes(std::vector<std::uint32_t>(s.labels.begin(), s.labels.end())));
@@ -112,15 +105,15 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.finish();
 }
 
-void write_bathymetry(const WriterContext& context, const SoundingSource& source,
+void write_bathymetry(const WriterContext& context, const RecordFile& records,
                       const std::filesystem::path& folder) {
     SoundingBounds bounds;
     std::uint64_t left_out = 0;
-    for_each_sounding(source, [&](const RecordedSounding& s) {
+    for_each_sounding(context, records, [&](const RecordedSounding& s) {
         good_for_map(s) ? bounds.add(s.position) : void(++left_out);
     });
     Bathymetry grid = make_bathymetry(bounds, 0.0);
-    for_each_sounding(source, [&](const RecordedSounding& s) {
+    for_each_sounding(context, records, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });
     write_map(context, folder, "bathymetry", grid, grid.mean(),
@@ -163,17 +156,13 @@ std::vector<double> sounding_fields(const WriterContext& context, const Finished
 /// the class if they are labels; NaN without a sounding.
 /// soundings.csv and .ply hold the beams with a sounding; bathymetry.tif, .json and .png hold the
 /// map of the soundings.
-std::optional<Writer> make_soundings_writer(const WriterContext& context) {
-    const SonarConfig& config = context.sonar().config;
-    if (config.kind != SonarKind::profiling) return std::nullopt;
+Writer make_soundings_writer(const WriterContext& context) {
     const std::size_t beams = context.sonar().settings.view.beams;
     const std::vector<SoundingLabel> labels = labels_of(context.mission.output);
-    const auto write_products = [=, &config](const RecordFile& records,
-                                             const std::filesystem::path& folder) {
-        const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
-                                    context.assembly.trajectory, labels};
-        write_soundings(source, folder);
-        write_bathymetry(context, source, folder);
+    const auto write_products = [=](const RecordFile& records,
+                                    const std::filesystem::path& folder) {
+        write_soundings(context, records, folder);
+        write_bathymetry(context, records, folder);
     };
     std::string fields = "range_m, x_m, y_m, z_m, quality";
     for (const SoundingLabel& label : labels)
@@ -182,20 +171,21 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
         .file = "soundings.npy",
         .format = {"<f8", {context.pings, beams, numbers_of_sounding + labels.size()}},
         .axes = {"ping", "beam", fields}};
-    return Writer{.per_ping = std::move(record),
-                  .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
-                               "bathymetry.json", "bathymetry.png"},
-                  .encode =
-                      [=](const FinishedPing& finished) {
-                          return record_bytes(sounding_fields(context, finished));
-                      },
-                  .write_products = write_products,
-                  .describe =
-                      [&config](Json& sensor) {
-                          sensor["pictures"].push_back({{"title", "bathymetry"},
-                                                        {"file", config.name + "/bathymetry.png"},
-                                                        {"per", "sensor"}});
-                      }};
+    return {.per_ping = std::move(record),
+            .products = {"soundings.csv", "soundings.ply", "bathymetry.tif", "bathymetry.json",
+                         "bathymetry.png"},
+            .encode =
+                [=](const FinishedPing& finished) {
+                    return record_bytes(sounding_fields(context, finished));
+                },
+            .write_products = write_products,
+            .describe =
+                [=](Json& sensor) {
+                    const std::string& name = context.sonar().config.name;
+                    sensor["pictures"].push_back({{"title", "bathymetry"},
+                                                  {"file", name + "/bathymetry.png"},
+                                                  {"per", "sensor"}});
+                }};
 }
 
 }  // namespace sonarsim

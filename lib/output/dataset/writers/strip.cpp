@@ -118,13 +118,12 @@ void describe_strip(const WriterContext& context, Json& sensor) {
 /// The records of a sonar whose picture is a strip, such as a waterfall or an echogram. NAME.npy:
 /// float32, a row or column per ping; NAME.png: the same in 16 bits; NAME_view.png: as an operator
 /// sees it, with an axis of ranges.
-std::optional<Writer> make_strip_writer(const WriterContext& context) {
+Writer make_strip_writer(const WriterContext& context) {
     const RecordShape& shape = context.kind().record;
-    if (shape.pictures != RecordPictures::strip) return std::nullopt;
     const SonarConfig& config = context.sonar().config;
     std::vector<std::string> products{plain_name(shape), view_name(shape)};
     if (shape.two_sides) std::ranges::move(swath_products(context), std::back_inserter(products));
-    return Writer{
+    return {
         .per_ping = record_of_kind(context, std::string(shape.name), "<f4"),
         .products = std::move(products),
         .encode =
