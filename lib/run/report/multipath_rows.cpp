@@ -47,7 +47,7 @@ void make_echoes(const PingSet& pings, const VisibilityEngine& engine,
 
 /// All multipath methods on one sonar. The first trial has the exact method, the last one none.
 void measure_sonar(const PingSet& pings, const Sonar& sonar, const VisibilityEngine& engine,
-                   int rounds, std::vector<MultipathRow>& rows) {
+                   int rounds, std::vector<Json>& rows) {
     std::vector<MultipathConfig> settings = multipath_settings(sonar.config.multipath);
     settings.push_back({MultipathMethod::none, 0, 0.0});
     std::vector<MultipathTrial> trials;
@@ -69,17 +69,24 @@ void measure_sonar(const PingSet& pings, const Sonar& sonar, const VisibilityEng
     const std::vector<float>& truth = trials[0].echoes;
     for (std::size_t k = 0; k + 1 < settings.size(); ++k) {
         const ImageError error = image_error(trials[k].echoes, truth);
-        MultipathRow& row = rows.emplace_back();
-        row.sensor = sonar.config.name;
-        row.setting = settings[k];
-        row.current = settings[k] == canonical(sonar.config.multipath);
-        row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
-        row.relative_l1 = error.relative_l1;
-        row.recall = 1.0 - error.miss_rate;
-        row.precision = 1.0 - image_error(truth, trials[k].echoes).miss_rate;
-        row.ms_multipath = over_poses(trials[k].poses, &PoseTimes::multipath_ms);
-        row.ms_per_ping = over_poses(trials[k].poses, &PoseTimes::ping_ms);
-        row.times_without = row.ms_per_ping / over_poses(trials.back().poses, &PoseTimes::ping_ms);
+        const double ms_per_ping = over_poses(trials[k].poses, &PoseTimes::ping_ms);
+        const double ms_without = over_poses(trials.back().poses, &PoseTimes::ping_ms);
+        const bool is_exact = settings[k].method == MultipathMethod::exact;
+        // Recall is the share of the exact method's bins that this one fills, precision that of
+        // this method's bins that the exact one fills. Times are with noise, on one thread.
+        rows.push_back(
+            {{"sensor", sonar.config.name},
+             {"method", is_exact ? "exact" : "cluster"},
+             {"epsilon_bins", settings[k].epsilon_bins},
+             {"delta_deg", settings[k].delta_deg},
+             {"current", settings[k] == canonical(sonar.config.multipath)},
+             {"relative_l1", error.relative_l1},
+             {"recall", 1.0 - error.miss_rate},
+             {"precision", 1.0 - image_error(truth, trials[k].echoes).miss_rate},
+             {"exact_bins", std::ranges::count_if(truth, [](float x) { return x > 0.0F; })},
+             {"ms_multipath", over_poses(trials[k].poses, &PoseTimes::multipath_ms)},
+             {"ms_per_ping", ms_per_ping},
+             {"times_without", ms_per_ping / ms_without}});
     }
 }
 
@@ -95,10 +102,9 @@ std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own) {
     return settings;
 }
 
-std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
-                                            const ReportOptions& options,
-                                            const ReportProgress& progress) {
-    std::vector<MultipathRow> rows;
+std::vector<Json> measure_multipath(const Mission& mission, const Assembly& assembly,
+                                    const ReportOptions& options, const ReportProgress& progress) {
+    std::vector<Json> rows;
     const PingSet pings(mission, assembly, options.poses);
     std::unique_ptr<VisibilityEngine> engine;
     for (const Sonar& sonar : assembly.sonars) {

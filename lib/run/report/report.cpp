@@ -30,16 +30,17 @@ Setting setting_of(EngineKind kind, double goal, const OctreeConfig& octree = {}
 
 double finest_bin_m(const Mission& mission) {
     double finest = std::numeric_limits<double>::infinity();
-    for (const SonarConfig& sensor : mission.sensors) {
+    for (const SonarConfig& sensor : mission.sensors)
         finest = std::min(finest, (sensor.range_max_m - sensor.range_min_m) / sensor.range_bins);
-    }
     return finest;
 }
 
-/// A sonar with a setting, and its times so far.
+/// A sonar with a setting, its errors and samples by pose, and its times so far.
 struct Trial {
     Sonar sonar;
     std::shared_ptr<const VisibilityEngine> engine;
+    std::vector<ImageError> errors;
+    std::vector<double> samples;
     std::vector<PoseTimes> poses;
     std::vector<double> pings_per_s;
 };
@@ -87,9 +88,7 @@ double rate(const Comparison& comparison, const Trial& trial) {
 template <class Figures>
 double mean_over(const std::vector<Figures>& poses, double Figures::*figure) {
     std::vector<double> values;
-    values.reserve(poses.size());
-    for (const Figures& figures : poses)
-        values.push_back(figures.*figure);
+    std::ranges::transform(poses, std::back_inserter(values), figure);
     return mean_of(values);
 }
 
@@ -114,43 +113,52 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
     return references;
 }
 
-void measure_errors(const PingSet& pings, const Trial& trial,
-                    const std::vector<Reference>& references, ReportRow& row) {
-    const std::size_t poses = references.size();
-    std::vector<ImageError> errors(poses);
-    std::vector<double> samples(poses);
-    in_parallel(poses, [&](std::size_t p) {
+void measure_errors(const PingSet& pings, const std::vector<Reference>& references, Trial& trial) {
+    in_parallel(references.size(), [&](std::size_t p) {
         const SonarAtPose then = pings.at_pose(trial.sonar, p);
         const Ping ping = direct_image(*then, pings.scene, *trial.engine,
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]));
-        errors[p] = image_error(ping.intensity, references[p].intensity, references[p].scored);
-        errors[p].relative_l1 = error_without_noise(ping.intensity, references[p]);
-        samples[p] = static_cast<double>(ping.counts.samples);
+        trial.errors[p] =
+            image_error(ping.intensity, references[p].intensity, references[p].scored);
+        trial.errors[p].relative_l1 = error_without_noise(ping.intensity, references[p]);
+        trial.samples[p] = static_cast<double>(ping.counts.samples);
     });
-    row.relative_l1 = mean_over(errors, &ImageError::relative_l1);
-    row.worst_relative_l1 =
-        std::ranges::max_element(errors, {}, &ImageError::relative_l1)->relative_l1;
-    row.miss_rate = mean_over(errors, &ImageError::miss_rate);
-    row.samples_per_ping = mean_of(samples);
 }
 
-void summarise_times(const Trial& trial, ReportRow& row) {
-    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping_ms);
-    row.ms_rays = over_poses(trial.poses, &PoseTimes::rays_thread_ms);
+/// One sonar with one setting. Errors are without noise: means over the poses, and that of the
+/// worst pose. Times are with noise, medians over the poses, on one thread but for `pings_per_s`.
+/// Those of Embree alone, and of a ping as a multiple of it, are CPU times, measured in turns.
+Json row_of(const std::string& sensor, const Setting& setting, const Trial& trial) {
     std::vector<double> times_rays;
-    for (const PoseTimes& pose : trial.poses) {
+    for (const PoseTimes& pose : trial.poses)
         times_rays.push_back(median_of(pose.ping_thread_ms) / median_of(pose.rays_thread_ms));
-    }
-    row.times_rays = median_of(times_rays);
-    row.pings_per_s = median_of(trial.pings_per_s);
+    const double worst =
+        std::ranges::max_element(trial.errors, {}, &ImageError::relative_l1)->relative_l1;
+    return {{"sensor", sensor},
+            {"engine", setting.engine},
+            {"setting", setting.name},
+            {"current", setting.current},
+            {"on_front", false},
+            {"ms_per_ping", over_poses(trial.poses, &PoseTimes::ping_ms)},
+            {"times_131k_rays", median_of(times_rays)},
+            {"pings_per_s", median_of(trial.pings_per_s)},
+            {"relative_l1", mean_over(trial.errors, &ImageError::relative_l1)},
+            {"worst_relative_l1", worst},
+            {"goal", goal_of(setting, worst)},
+            {"miss_rate", mean_over(trial.errors, &ImageError::miss_rate)},
+            {"samples_per_ping", mean_of(trial.samples)},
+            {"ms_131k_rays", over_poses(trial.poses, &PoseTimes::rays_thread_ms)}};
 }
 
 /// Marks the rows that no other row equals in both figures and beats in one.
-void mark_front(std::vector<ReportRow>& rows) {
-    for (ReportRow& row : rows) {
-        row.on_front = std::ranges::none_of(rows, [&](const ReportRow& other) {
-            return other.ms_per_ping <= row.ms_per_ping && other.relative_l1 <= row.relative_l1 &&
-                   (other.ms_per_ping < row.ms_per_ping || other.relative_l1 < row.relative_l1);
+void mark_front(std::vector<Json>& rows) {
+    for (Json& row : rows) {
+        row["on_front"] = std::ranges::none_of(rows, [&](const Json& other) {
+            const bool as_fast = other["ms_per_ping"] <= row["ms_per_ping"];
+            const bool as_accurate = other["relative_l1"] <= row["relative_l1"];
+            return as_fast && as_accurate &&
+                   (other["ms_per_ping"] < row["ms_per_ping"] ||
+                    other["relative_l1"] < row["relative_l1"]);
         });
     }
 }
@@ -165,6 +173,8 @@ std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, con
         trial.sonar = sonar;
         trial.sonar.settings.view.relative_l1 = setting.relative_l1;
         trial.poses.resize(pings.poses.size());
+        trial.errors.resize(pings.poses.size());
+        trial.samples.resize(pings.poses.size());
         const bool is_rays = setting.kind == EngineKind::rays;
         trial.engine = is_rays && rays ? rays
                                        : make_engine(assembly.scene,
@@ -183,12 +193,9 @@ void report_sonar(const Comparison& comparison, const Assembly& assembly, const 
     progress(name + ": casting the reference");
     const std::vector<Reference> references = cast_references(comparison, sonar, report);
     std::vector<Trial> trials = trials_of(pings, assembly, sonar, settings);
-    std::vector<ReportRow> rows(settings.size());
-    for (std::size_t s = 0; s < rows.size(); ++s) {
+    for (std::size_t s = 0; s < trials.size(); ++s) {
         progress(name + ": " + settings[s].engine + " " + settings[s].name + ", error");
-        rows[s].sensor = name;
-        rows[s].setting = settings[s];
-        measure_errors(pings, trials[s], references, rows[s]);
+        measure_errors(pings, references, trials[s]);
     }
     const std::vector<Eigen::Vector3f> over_view = view_rays(sonar.settings.view);
     for (int round = 0; round < comparison.options.rounds; ++round) {
@@ -204,8 +211,9 @@ void report_sonar(const Comparison& comparison, const Assembly& assembly, const 
         for (Trial& trial : trials)
             trial.pings_per_s.push_back(rate(comparison, trial));
     }
-    for (std::size_t s = 0; s < rows.size(); ++s)
-        summarise_times(trials[s], rows[s]);
+    std::vector<Json> rows;
+    for (std::size_t s = 0; s < trials.size(); ++s)
+        rows.push_back(row_of(name, settings[s], trials[s]));
     mark_front(rows);
     report.rows.insert(report.rows.end(), rows.begin(), rows.end());
 }
@@ -219,11 +227,10 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     const double own_goal = mission.accuracy.relative_l1;
     std::vector<Setting> settings;
-    settings.reserve(2 * goals.size() + leaves.size() + 1);
-    for (const double goal : goals)
-        settings.push_back(setting_of(EngineKind::rays, goal));
-    for (const double goal : goals)
-        settings.push_back(setting_of(EngineKind::strips, goal));
+    for (const EngineKind kind : {EngineKind::rays, EngineKind::strips}) {
+        for (const double goal : goals)
+            settings.push_back(setting_of(kind, goal));
+    }
     for (const double leaf : leaves) {
         if (leaf >= 0.25 * finest_bin_m(mission))
             settings.push_back(setting_of(EngineKind::octree, own_goal, {leaf}));
@@ -236,6 +243,11 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     });
     settings.push_back(own);
     return settings;
+}
+
+const char* goal_of(const Setting& setting, double worst_relative_l1) {
+    if (setting.kind == EngineKind::octree) return "-";
+    return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
 }
 
 std::string unsupported(const Setting& setting, const Assembly& assembly) {

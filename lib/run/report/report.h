@@ -39,44 +39,9 @@ std::string unsupported(const Setting& setting, const Assembly& assembly);
 // The report of speed against error: the time and the accuracy of each engine and setting for a
 // mission.
 
-/// One sonar with one setting.
-struct ReportRow {
-    std::string sensor;
-    Setting setting;
-    double ms_per_ping = 0.0;  ///< noise on, one thread; median over the poses
-    double pings_per_s = 0.0;  ///< noise on, all threads
-    /// Noise off; means over the poses, and the error of the worst pose.
-    double relative_l1 = 0.0, worst_relative_l1 = 0.0, miss_rate = 0.0;
-    double samples_per_ping = 0.0;
-    /// Embree alone, with view_rays_count rays over the view, and a ping as a multiple of it. Both
-    /// are CPU times, measured in turns at each pose; medians over the poses.
-    double ms_rays = 0.0;
-    double times_rays = 0.0;
-    bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
-
-    /// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" for the octree,
-    /// which has none.
-    const char* goal() const {
-        if (setting.kind == EngineKind::octree) return "-";
-        return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
-    }
-};
-
-/// One sonar with one multipath method, compared to tracing every sample. The errors are those of
-/// the multipath echoes only, without noise, over the bins of all poses together, since a single
-/// pose may fill only a few bins.
-struct MultipathRow {
-    std::string sensor;
-    MultipathConfig setting;       ///< the exact method has 0 for epsilon and delta
-    bool current = false;          ///< the mission's own setting
-    std::uint64_t exact_bins = 0;  ///< bins that the exact method fills
-    double relative_l1 = 0.0;
-    double recall = 1.0;         ///< share of the exact method's bins that this one fills, too
-    double precision = 1.0;      ///< share of this method's bins that the exact one fills, too
-    double ms_multipath = 0.0;   ///< time of this stage, one thread; median over the poses
-    double ms_per_ping = 0.0;    ///< noise on, one thread; median over the poses
-    double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
-};
+/// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" for the octree,
+/// which has none.
+const char* goal_of(const Setting& setting, double worst_relative_l1);
 
 struct ReportOptions {
     int poses = 8;
@@ -91,12 +56,12 @@ struct Report {
     std::size_t triangles = 0;  ///< copies included
     int poses = 0;
     int threads = 0;
-    double load = 0.0;  ///< load average of the machine at the start
-    std::vector<ReportRow> rows;
+    double load = 0.0;       ///< load average of the machine at the start
+    std::vector<Json> rows;  ///< one for each sonar and setting
     /// The noise of the reference images of each sonar, and the rays that echoed per occupied bin.
     Json references = Json::array();
-    std::vector<MultipathRow> multipath;  ///< only for sonars that have it
-    Json job;                             ///< measure_job()
+    std::vector<Json> multipath;  ///< measure_multipath()
+    Json job;                     ///< measure_job()
 };
 
 /// Reports progress.
@@ -114,10 +79,11 @@ Report make_report(const Mission& mission, const Assembly& assembly,
 std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
 
 /// Measures every sonar that has multipath with each of its multipath_settings(), with the engine
-/// and the error goal of the mission. The methods take turns.
-std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
-                                            const ReportOptions& options,
-                                            const ReportProgress& progress);
+/// and the error goal of the mission. The methods take turns. A row compares one to tracing every
+/// sample, by the multipath echoes only, without noise, over the bins of all poses together, since
+/// a single pose may fill only a few bins.
+std::vector<Json> measure_multipath(const Mission& mission, const Assembly& assembly,
+                                    const ReportOptions& options, const ReportProgress& progress);
 
 /// Renders some pings of a mission into a temporary folder: the images per second on all threads
 /// and, on one thread, the set-up and the stages of an image. `ms_rays` is the time of the rays

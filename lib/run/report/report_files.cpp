@@ -9,55 +9,15 @@ namespace sonarsim {
 
 namespace {
 
-Json json_of(const ReportRow& row) {
-    return {{"sensor", row.sensor},
-            {"engine", row.setting.engine},
-            {"setting", row.setting.name},
-            {"current", row.setting.current},
-            {"on_front", row.on_front},
-            {"ms_per_ping", row.ms_per_ping},
-            {"times_131k_rays", row.times_rays},
-            {"pings_per_s", row.pings_per_s},
-            {"relative_l1", row.relative_l1},
-            {"worst_relative_l1", row.worst_relative_l1},
-            {"goal", row.goal()},
-            {"miss_rate", row.miss_rate},
-            {"samples_per_ping", row.samples_per_ping},
-            {"ms_131k_rays", row.ms_rays}};
-}
-
-Json json_of(const MultipathRow& row) {
-    return {{"sensor", row.sensor},
-            {"method", row.setting.method == MultipathMethod::exact ? "exact" : "cluster"},
-            {"epsilon_bins", row.setting.epsilon_bins},
-            {"delta_deg", row.setting.delta_deg},
-            {"current", row.current},
-            {"relative_l1", row.relative_l1},
-            {"recall", row.recall},
-            {"precision", row.precision},
-            {"exact_bins", row.exact_bins},
-            {"ms_multipath", row.ms_multipath},
-            {"ms_per_ping", row.ms_per_ping},
-            {"times_without", row.times_without}};
-}
-
-template <class Row>
-Json list_of(const std::vector<Row>& rows) {
-    Json list = Json::array();
-    for (const Row& row : rows)
-        list.push_back(json_of(row));
-    return list;
-}
-
 Json json_of(const Report& report) {
     Json json{{"mission", report.mission},
               {"triangles", report.triangles},
               {"poses", report.poses},
               {"threads", report.threads},
               {"load", report.load}};
-    json["rows"] = list_of(report.rows);
+    json["rows"] = report.rows;
     json["reference"] = report.references;
-    json["multipath_rows"] = list_of(report.multipath);
+    json["multipath_rows"] = report.multipath;
     json["job"] = report.job;
     return json;
 }
