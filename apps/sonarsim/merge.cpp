@@ -1,5 +1,3 @@
-#include "run/job/merge.h"
-
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
@@ -8,6 +6,7 @@
 
 #include "commands.h"
 #include "run/checks/warning.h"
+#include "run/job/dataset_folders.h"
 #include "signals.h"
 
 namespace sonarsim {

@@ -1,10 +1,9 @@
-#include "run/job/status.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <vector>
 
 #include "commands.h"
+#include "run/job/dataset_folders.h"
 
 namespace sonarsim {
 

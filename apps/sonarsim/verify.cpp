@@ -1,11 +1,10 @@
-#include "run/job/verify.h"
-
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
 
 #include "commands.h"
 #include "mission_options.h"
+#include "run/job/dataset_folders.h"
 #include "signals.h"
 
 namespace sonarsim {

@@ -4,9 +4,7 @@
 
 #include "job/small_job.h"
 #include "output/dataset/metadata.h"
-#include "run/job/merge.h"
-#include "run/job/status.h"
-#include "run/job/verify.h"
+#include "run/job/dataset_folders.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

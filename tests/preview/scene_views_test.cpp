@@ -1,5 +1,4 @@
-#include "run/preview/scene_views.h"
-
+#include "run/preview/preview.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/test.h"
 

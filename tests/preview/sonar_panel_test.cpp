@@ -1,5 +1,4 @@
-#include "run/preview/sonar_panel.h"
-
+#include "run/preview/preview.h"
 #include "simulate/product/fan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"

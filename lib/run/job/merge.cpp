@@ -1,5 +1,3 @@
-#include "run/job/merge.h"
-
 #include <algorithm>
 #include <fstream>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "core/file.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/metadata.h"
+#include "run/job/dataset_folders.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
 #include "run/job/shard_lock.h"

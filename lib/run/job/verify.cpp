@@ -1,5 +1,3 @@
-#include "run/job/verify.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -11,6 +9,7 @@
 #include "core/ordered_pipeline.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/layout.h"
+#include "run/job/dataset_folders.h"
 #include "run/job/variants.h"
 
 namespace sonarsim {

@@ -8,8 +8,6 @@
 #include <string>
 
 #include "core/units.h"
-#include "run/preview/drawing.h"
-#include "run/preview/sonar_panel.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
@@ -54,14 +52,6 @@ std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
                        view.range_bins, view.beams);
 }
 
-/// `engine: auto` becomes the rays: it chooses by the views of the mission, and a preview has
-/// coarser ones.
-EngineSettings settings_of_preview(const Mission& mission) {
-    EngineSettings settings = engine_settings(mission);
-    if (settings.type == EngineKind::automatic) settings.type = EngineKind::rays;
-    return settings;
-}
-
 /// Limits the sampling to what the picture can show.
 Sonar coarse(Sonar sonar) {
     constexpr double coarse_l1 = 0.1;
@@ -101,8 +91,10 @@ Picture arrange(const std::string& head, const std::vector<Tile>& tiles) {
 
 Preview draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose) {
     const Trajectory& trajectory = assembly.trajectory;
-    const std::unique_ptr<VisibilityEngine> engine =
-        make_engine(assembly.scene, settings_of_preview(mission));
+    EngineSettings settings = engine_settings(mission);
+    // `auto` chooses by the views of the mission, and a preview has coarser ones.
+    if (settings.type == EngineKind::automatic) settings.type = EngineKind::rays;
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(assembly.scene, settings);
     const auto at_pose = [&](std::uint32_t index) {
         return engine_at(*engine, assembly.motions, trajectory[index].t_s);
     };

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 #include <utility>
 
 #include "input/scene/model_data.h"
-#include "run/preview/scene_views.h"
+#include "run/preview/preview.h"
 
 namespace sonarsim {
 

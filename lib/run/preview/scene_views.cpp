@@ -1,12 +1,10 @@
-#include "run/preview/scene_views.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/units.h"
 #include "input/scene/copies.h"
-#include "simulate/product/picture.h"
+#include "run/preview/preview.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
@@ -19,12 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr Rgb path_colour{255, 255, 255};
-
-/// Enlarges an area on all sides by a share of its longer side, at least by a metre.
-AlignedBox2d padded(const AlignedBox2d& box, double share) {
-    const double by = std::max(0.5, share * box.sizes().maxCoeff());
-    return {box.min().array() - by, box.max().array() + by};
-}
 
 Vector2d flat(const Vector3d& p) {
     return p.head<2>();
@@ -84,35 +76,31 @@ AlignedBox2d plan_box(const Moment& moment) {
         for (const Vector3d& end : beam.ends)
             box.extend(flat(end));
     }
-    box = padded(box, 0.1);
+    const double margin_m = std::max(0.5, 0.1 * box.sizes().maxCoeff());
+    box = {box.min().array() - margin_m, box.max().array() + margin_m};
     // The plan shows all of the scene if it is not much larger.
     const Scene& scene = moment.assembly.scene;
-    const Vector2d scene_low = flat(scene.bounds_min);
-    const Vector2d scene_high = flat(scene.bounds_max);
-    if ((scene_high - scene_low).maxCoeff() < 2.0 * box.sizes().maxCoeff()) {
-        box.extend(scene_low);
-        box.extend(scene_high);
-    }
-    return box;
+    const AlignedBox2d all(flat(scene.bounds_min), flat(scene.bounds_max));
+    const bool fits = (all.max() - all.min()).maxCoeff() < 2.0 * box.sizes().maxCoeff();
+    return fits ? box.merged(all) : box;
 }
 
 constexpr int edge_steps = 48;  // rays along each side, or around a cone
 
-Ray ray_along(const Eigen::Vector3d& direction) {
-    return {Eigen::Vector3f::Zero(), direction.cast<float>().normalized()};
-}
-
 std::vector<Ray> rays_around(const View& view) {
     std::vector<Ray> rays;
+    const auto add = [&](const Vector3d& direction) {
+        rays.push_back({Eigen::Vector3f::Zero(), direction.cast<float>().normalized()});
+    };
     const double azimuth = 0.5 * view.azimuth_rad;
     const double elevation = 0.5 * view.elevation_rad;
     if (view.shape == ViewShape::cone) {
         for (int k = 0; k < edge_steps; ++k)
-            rays.push_back(ray_along(direction_off_boresight(azimuth, 2.0 * pi * k / edge_steps)));
+            add(direction_off_boresight(azimuth, 2.0 * pi * k / edge_steps));
         return rays;
     }
     const auto at = [&](double across, double up) {
-        rays.push_back(ray_along(direction_of(azimuth * across, elevation * up)));
+        add(direction_of(azimuth * across, elevation * up));
     };
     for (int side = 0; side < 4; ++side) {
         for (int k = 0; k < edge_steps; ++k) {
@@ -145,12 +133,6 @@ std::vector<AlignedBox3d> boxes_at(const Assembly& assembly, std::uint32_t pose)
     return boxes;
 }
 
-/// The box in pixels of the tile.
-AlignedBox2d box_in_plan(const PlaneFrame& frame, const AlignedBox3d& box) {
-    AlignedBox2d pixels(frame.pixel(box.min().head<2>()));
-    return pixels.extend(frame.pixel(box.max().head<2>()));
-}
-
 /// The box of a name on the right or on the left of its object.
 AlignedBox2d box_of_name(const AlignedBox2d& object, int width, bool left) {
     constexpr double height = 11.0;  // seven pixels and a dark outline
@@ -163,13 +145,12 @@ AlignedBox2d box_of_name(const AlignedBox2d& object, int width, bool left) {
 void draw_box(Picture& tile, const AlignedBox2d& box) {
     using Box = AlignedBox2d;
     constexpr float share = 0.55F;
-    const std::pair<Box::CornerType, Box::CornerType> sides[] = {
-        {Box::BottomLeft, Box::BottomRight},
-        {Box::BottomRight, Box::TopRight},
-        {Box::TopRight, Box::TopLeft},
-        {Box::TopLeft, Box::BottomLeft}};
-    for (const auto& side : sides)
-        draw_line(tile, box.corner(side.first), box.corner(side.second), box_colour, share);
+    const Box::CornerType once_around[] = {Box::BottomLeft, Box::BottomRight, Box::TopRight,
+                                           Box::TopLeft, Box::BottomLeft};
+    for (int k = 0; k < 4; ++k) {
+        draw_line(tile, box.corner(once_around[k]), box.corner(once_around[k + 1]), box_colour,
+                  share);
+    }
 }
 
 }  // namespace
@@ -202,12 +183,10 @@ std::vector<float> heights_below(const VisibilityEngine& engine, const Vector3d&
     }
     std::vector<Intersection> met(rays.size());
     engine.intersect({Eigen::Quaterniond::Identity(), vehicle}, rays, met);
-    std::vector<float> heights;
-    heights.reserve(met.size());
-    for (const Intersection& one : met) {
-        heights.push_back(std::isfinite(one.distance_m)
-                              ? static_cast<float>(vehicle.z()) - one.distance_m
-                              : std::nanf(""));
+    std::vector<float> heights(met.size(), std::nanf(""));
+    for (std::size_t k = 0; k < met.size(); ++k) {
+        if (std::isfinite(met[k].distance_m))
+            heights[k] = static_cast<float>(vehicle.z()) - met[k].distance_m;
     }
     return heights;
 }
@@ -257,7 +236,8 @@ std::vector<AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
     const AlignedBox2d plot(corner, corner + Vector2d(frame.plot_width, frame.plot_height));
     std::vector<std::pair<AlignedBox2d, const ObjectBox*>> shown;
     for (const ObjectBox& object : objects) {
-        const AlignedBox2d box = box_in_plan(frame, object.box);
+        AlignedBox2d box(frame.pixel(flat(object.box.min())));
+        box.extend(frame.pixel(flat(object.box.max())));
         if (plot.contains(box.center()) && box.volume() < max_of_plot * plot.volume())
             shown.emplace_back(box, &object);
     }

@@ -1,5 +1,3 @@
-#include "run/preview/sonar_panel.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +5,7 @@
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "run/preview/drawing.h"
+#include "run/preview/preview.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/fan.h"
 #include "simulate/product/scan.h"
@@ -93,22 +91,20 @@ void draw_lines(Picture& picture, const FanFrame& frame, const View& view) {
     }
 }
 
-struct Pixel {
-    int x;
-    int y;
-};
-
-Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double azimuth_rad) {
+Eigen::Vector2i pixel_of(const FanFrame& frame, const View& view, double range_m,
+                         double azimuth_rad) {
     const SinCos at = sincos(azimuth_rad);
-    return {static_cast<int>(std::floor(0.5 * frame.width - range_m * at.sin / frame.pixel_m)),
-            static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
+    return Eigen::Array2d(0.5 * frame.width - range_m * at.sin / frame.pixel_m,
+                          (view.range_max_m - range_m * at.cos) / frame.pixel_m)
+        .floor()
+        .cast<int>();
 }
 
 /// Writes a number within the picture.
-void write_number(Picture& picture, const Pixel& at, const std::string& text) {
+void write_number(Picture& picture, const Eigen::Vector2i& at, const std::string& text) {
     const int half = text_width(text) / 2 + 1;
-    const int x = std::clamp(at.x, half, std::max(half, picture.width - half));
-    const int y = std::clamp(at.y, 5, std::max(5, picture.height - 5));
+    const int x = std::clamp(at.x(), half, std::max(half, picture.width - half));
+    const int y = std::clamp(at.y(), 5, std::max(5, picture.height - 5));
     outlined_label(picture, x, y, text, Align::middle, mark_colour);
 }
 
@@ -117,9 +113,8 @@ void write_numbers(Picture& picture, const FanFrame& frame, const View& view) {
     for (const double range_m : ring_ranges(view)) {
         if (range_m > 0.97 * view.range_max_m) continue;  // the outermost bearing has its number
         const std::string text = number_text(range_m) + " m";
-        Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
-        at.x += 5 + text_width(text) / 2;
-        at.y += wide ? 6 : 2;
+        Eigen::Vector2i at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+        at += Eigen::Vector2i(5 + text_width(text) / 2, wide ? 6 : 2);
         write_number(picture, at, text);
     }
     const double in_m = 14.0 * frame.pixel_m;
