@@ -1,5 +1,7 @@
 #include "output/dataset/dataset_file.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "core/error.h"
@@ -188,10 +190,8 @@ std::string difference_between(const Json& found, const Json& expected) {
 
 std::string numbered(const std::string& pattern, std::uint64_t number) {
     const std::size_t at = pattern.find('%');
-    std::string digits = std::to_string(number);
-    const auto width = static_cast<std::size_t>(pattern.at(at + 2) - '0');
-    digits.insert(0, std::max(width, digits.size()) - digits.size(), '0');
-    return std::string(pattern).replace(at, 4, digits);
+    const int digits = pattern.at(at + 2) - '0';
+    return std::string(pattern).replace(at, 4, fmt::format("{:0{}}", number, digits));
 }
 
 std::vector<std::string> list_files(const DatasetFile& dataset) {

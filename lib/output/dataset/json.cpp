@@ -1,5 +1,7 @@
 #include "output/dataset/json.h"
 
+#include <cmath>
+
 namespace sonarsim {
 
 Json describe_box(const PixelBox& box) {
@@ -10,6 +12,11 @@ Json describe_pose(const Pose& pose) {
     const Eigen::Quaterniond& q = pose.rotation;
     return {{"position_m", describe_vector(pose.translation)},
             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+Json rounded(const std::optional<double>& value, double parts) {
+    if (!value) return nullptr;
+    return std::round(*value * parts) / parts;
 }
 
 // The name of a mission or a file may be any bytes; what is no UTF-8 becomes U+FFFD.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ Json describe_box(const PixelBox& box);
 
 /// Position in metres; quaternion as x, y, z, w.
 Json describe_pose(const Pose& pose);
+
+/// Rounded to a part of 1; null for none.
+Json rounded(const std::optional<double>& value, double parts);
 
 /// JSON as it is written: indented, with a line feed at the end.
 std::string json_text(const Json& json);

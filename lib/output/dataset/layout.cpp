@@ -1,5 +1,7 @@
 #include "output/dataset/layout.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <regex>
 
@@ -31,9 +33,7 @@ std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& fo
 }
 
 std::string Layout::number(std::uint32_t pose) const {
-    std::string text = std::to_string(pose);
-    text.insert(0, std::max(0, digits - static_cast<int>(text.size())), '0');
-    return text;
+    return fmt::format("{:0{}}", pose, digits);
 }
 
 std::filesystem::path Layout::sensor_folder(std::size_t sensor) const {

@@ -20,13 +20,6 @@ std::string portable_name(const Mission& mission, const InputFile& input) {
     return input.path.lexically_proximate(home_of(mission)).string();
 }
 
-Json describe_inputs(const Mission& mission, const Assembly& assembly) {
-    Json inputs = Json::array();
-    for (const InputFile& input : assembly.inputs)
-        inputs.push_back({{"file", portable_name(mission, input)}, {"sha256", input.sha256}});
-    return inputs;
-}
-
 /// The rendered part of the scene's files, its accuracy, and the number of parts left out.
 Json describe_scene_use(const Scene& scene) {
     Json json = {{"triangles", scene.triangles.size()},
@@ -70,7 +63,8 @@ Json describe_record(const PingRecord& record, const std::string& folder, std::s
     return json;
 }
 
-/// The names of the ids of labels, with the world boxes (m) of instances that stand still.
+/// The names of the ids of labels, with the world boxes (m) of instances that stand still, and the
+/// classes that are background.
 Json describe_label_ids(const Assembly& assembly) {
     const SceneObjects& objects = assembly.objects;
     const std::vector<Eigen::AlignedBox3d> boxes = object_boxes(assembly);
@@ -84,23 +78,17 @@ Json describe_label_ids(const Assembly& assembly) {
                                      {"box_world_m", describe_box(boxes[k])}});
     }
     json["classes"] = Json::array();
+    Json background = Json::array();
     for (std::size_t k = 0; k < objects.classes.size(); ++k) {
         json["classes"].push_back({{"id", k + 1}, {"name", objects.classes[k]}});
+        if (!objects.background.empty() && objects.background[k] != 0)
+            background.push_back(objects.classes[k]);
     }
     json["materials"] = Json::array();
-    for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {
+    for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k)
         json["materials"].push_back({{"id", k + 1}, {"name", assembly.scene.materials[k].name}});
-    }
+    json["annotations"]["background"] = std::move(background);
     return json;
-}
-
-/// The names of the classes that are background.
-Json describe_annotations(const SceneObjects& objects) {
-    Json background = Json::array();
-    for (std::size_t k = 0; k < objects.background.size(); ++k) {
-        if (objects.background[k] != 0) background.push_back(objects.classes[k]);
-    }
-    return {{"background", std::move(background)}};
 }
 
 Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
@@ -161,18 +149,16 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                  {"mission", mission.name},
                  {"mission_hash", mission_hash(mission, sonar_keys())},
                  {"inputs_hash", inputs_hash(assembly)},
-                 {"inputs", describe_inputs(mission, assembly)},
+                 {"inputs", Json::array()},
                  {"seed", mission.seed},
                  {"poses", assembly.trajectory.size()}};
-    if (mission.variant.index >= 0) {
-        json["variant"] = {{"index", mission.variant.index},
-                           {"drawn", describe_drawn(mission.variant.drawn)}};
+    for (const InputFile& input : assembly.inputs) {
+        json["inputs"].push_back(
+            {{"file", portable_name(mission, input)}, {"sha256", input.sha256}});
     }
+    describe_variant(mission, json);
     json["scene"] = describe_scene_use(assembly.scene);
-    if (!mission.output.labels.empty()) {
-        json["labels"] = describe_label_ids(assembly);
-        json["labels"]["annotations"] = describe_annotations(assembly.objects);
-    }
+    if (!mission.output.labels.empty()) json["labels"] = describe_label_ids(assembly);
     json["sensors"] = Json::array();
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
         json["sensors"].push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i],

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "input/mission/mission.h"
 #include "output/dataset/json.h"

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <map>
 
 #include "core/text.h"
@@ -24,6 +23,12 @@ Json describe_drawn(const DrawnValues& drawn) {
     return json;
 }
 
+void describe_variant(const Mission& mission, Json& json) {
+    if (mission.variant.index < 0) return;
+    json["variant"] = {{"index", mission.variant.index},
+                       {"drawn", describe_drawn(mission.variant.drawn)}};
+}
+
 namespace {
 
 /// The point targets that a ping reaches, by object: their number, mean place and total strength.
@@ -47,8 +52,8 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
         json[assembly.scene.instances[instance]] = {
             {"count", sum.count},
             {"position_m", describe_vector(Eigen::Vector3d(sum.place / sum.count))},
-            // Rounded to a hundredth of a decibel, since the cross-sections are floats.
-            {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
+            // To a hundredth of a decibel, since the cross-sections are floats.
+            {"target_strength_db", rounded(db_of_power(sum.section_m2), 100.0)}};
     }
     return json;
 }
@@ -72,15 +77,11 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         {"full_scale", assembly.full_scales[id.sensor]},
         {"clipped_pixels", finished.clipped_pixels},
         {"counts", json_object<Json>(ping_counters, counts)}};
-    if (!assembly.reported.empty()) {
+    if (!assembly.reported.empty())
         json["T_world_vehicle_reported"] =
             describe_pose(assembly.reported[id.pose].T_world_vehicle);
-    }
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
-    if (mission.variant.index >= 0) {
-        json["variant"] = {{"index", mission.variant.index},
-                           {"drawn", describe_drawn(mission.variant.drawn)}};
-    }
+    describe_variant(mission, json);
     const DrawnValues drawn = drawn_for_ping(mission, sonar.config.name, id.pose);
     if (!drawn.empty()) json["drawn"] = describe_drawn(drawn);
     const std::vector<Pose> bodies = body_poses(assembly, pose.t_s);

@@ -74,9 +74,8 @@ void RecordFile::close() {
 }
 
 void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {
-    if (record >= records_ || bytes.size() != record_bytes_) {
+    if (record >= records_ || bytes.size() != record_bytes_)
         throw std::logic_error("a record does not fit " + path_.string());
-    }
     if (!transfer_all(::pwrite, file_.get(), bytes.data(), bytes.size(), offset(record)))
         throw_errno("cannot write", path_);
 }

@@ -46,6 +46,9 @@ struct FinishedPing {
 /// The drawn values by key; text if a value is neither a number nor a flag.
 Json describe_drawn(const DrawnValues& drawn);
 
+/// Adds the number of the mission's variant and what was drawn for it, if it is one.
+void describe_variant(const Mission& mission, Json& json);
+
 /// The metadata of one ping.
 Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished);
 
@@ -105,11 +108,11 @@ struct PingNumbers {
 template <class T>
 PingNumbers numbers_of(const Sonar& sonar, std::vector<T> image, T blank) {
     const KindOfSonar& kind = kind_of(sonar.config.kind);
-    const View& view = sonar.settings.view;
-    if (kind.has_images)
-        return {std::move(image), {std::size_t(view.range_bins), std::size_t(view.beams)}};
-    return {record_values(kind.record, sonar.config, image, blank),
-            {kind.record.values(sonar.config)}};
+    if (!kind.has_images)
+        return {record_values(kind.record, sonar.config, image, blank),
+                {kind.record.values(sonar.config)}};
+    const auto beams = static_cast<std::size_t>(sonar.settings.view.beams);
+    return {std::move(image), {image.size() / beams, beams}};
 }
 /// The numbers as the bytes of a record.
 inline std::string record_bytes(const PingNumbers& numbers) {

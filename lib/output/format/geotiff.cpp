@@ -54,10 +54,6 @@ class TiffHeader {
     std::string values_;
 };
 
-constexpr std::uint16_t tags_of_map = 13;
-// A header, then a key each: its number, 0, one value, the value.
-constexpr std::uint16_t keys_of_map = 3;
-
 void add_place(const MapPlace& place, TiffHeader& out) {
     const double pixel_scale[] = {place.cell_m, place.cell_m, 0.0};
     // Raster (0, 0), the outer corner of the first cell, lies at the world's (west, north).
@@ -65,10 +61,10 @@ void add_place(const MapPlace& place, TiffHeader& out) {
     out.add(33550, TagType::f64, 3, bytes_of(pixel_scale));  // ModelPixelScaleTag
     out.add(33922, TagType::f64, 6, bytes_of(tie_point));    // ModelTiepointTag
     if (place.epsg != 0) {
-        // GeoKeyDirectoryTag: a projected model, whose pixels are areas.
-        const std::uint16_t keys[] = {
-            1,    1, 0, keys_of_map, 1024, 0, 1, 1,
-            1025, 0, 1, 1,           3072, 0, 1, static_cast<std::uint16_t>(place.epsg)};
+        // GeoKeyDirectoryTag: a projected model, whose pixels are areas. A header with the number
+        // of keys, then for each its number, 0, one value, the value.
+        const auto epsg = static_cast<std::uint16_t>(place.epsg);
+        const std::uint16_t keys[] = {1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, epsg};
         out.add(34735, TagType::u16, std::size(keys), bytes_of(keys));
     }
     out.add(42113, TagType::ascii, 4, bytes_of("nan"));  // GDAL_NODATA
@@ -77,6 +73,7 @@ void add_place(const MapPlace& place, TiffHeader& out) {
 /// The header of a map whose cells begin at byte `pixels_at`.
 std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace& place,
                    std::uint32_t pixels_at) {
+    constexpr std::uint16_t tags_of_map = 13;
     constexpr std::uint16_t one = 1;
     TiffHeader out(place.epsg != 0 ? tags_of_map + 1 : tags_of_map);
     out.add(256, columns);             // ImageWidth

@@ -32,10 +32,8 @@ std::string npy_header(const NpyFormat& format) {
 }
 
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns) {
-    const std::string head = npy_header({"<f4", {rows, columns}});
-    std::string bytes;
-    bytes.reserve(head.size() + values.size_bytes());
-    bytes.append(head).append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    std::string bytes = npy_header({"<f4", {rows, columns}});
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return bytes;
 }
 

@@ -89,8 +89,7 @@ std::size_t triangles_of(const Scene& scene) {
 }
 
 /// W09: materials that reflect no sound in this water.
-std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene) {
-    std::vector<Warning> out;
+void judge_materials(const WaterConfig& water, const Scene& scene, std::vector<Warning>& out) {
     constexpr float faintest = 1.0F / 65535;  // reflected power: impedances within 0.8 %
     for (const Material& material : scene.materials) {
         const std::string about = "material '" + printable(material.name) + "'";
@@ -101,18 +100,6 @@ std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& sc
                                        water.density_kg_m3, water.sound_speed_m_s));
         }
     }
-    return out;
-}
-
-/// Warnings about the size of the scene and the cells of its heightmap.
-std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
-                                    std::span<const SonarSurvey> sonars) {
-    std::vector<Warning> out;
-    if (!assembly.scene.triangles.empty() || !assembly.scene.copies.empty()) {
-        judge_extent(mission, assembly, sonars, out);
-        if (mission.scene.heightmap) judge_heightmap(assembly, out);
-    }
-    return out;
 }
 
 /// W38: a kind of sonar whose usual sector is wide has one of few degrees, as by radians.
@@ -191,7 +178,7 @@ std::vector<Warning> reading_warnings(const Scene& scene) {
 
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly) {
     std::vector<Warning> out = reading_warnings(assembly.scene);
-    append(out, material_warnings(mission.water, assembly.scene));
+    judge_materials(mission.water, assembly.scene, out);
     for (const Sonar& sonar : assembly.sonars) {
         judge_azimuth(sonar.config, out);
         judge_ping_rate(mission, assembly.trajectory, sonar, out);
@@ -203,7 +190,10 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays) {
     std::vector<Warning> out = warnings_before_pings(mission, assembly);
-    append(out, scene_warnings(mission, assembly, sonars));
+    if (!assembly.scene.triangles.empty() || !assembly.scene.copies.empty()) {
+        judge_extent(mission, assembly, sonars, out);
+        if (mission.scene.heightmap) judge_heightmap(assembly, out);
+    }
     for (std::size_t i = 0; i < sonars.size(); ++i) {
         append(out, sonar_warnings(mission.output, assembly.sonars[i], assembly.full_scales[i],
                                    sonars[i]));

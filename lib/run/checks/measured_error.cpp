@@ -90,12 +90,6 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     return {pose, many_paths ? with_paths : change(1.0 / 3.0), truth.noise, true};
 }
 
-/// Rounds to a thousandth of a percent; null for none.
-Json rounded(const std::optional<double>& share) {
-    constexpr double steps = 1e5;
-    return share ? Json(std::round(steps * *share) / steps) : Json();
-}
-
 /// The key that lowers the error, as the imperative of a sentence.
 std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
@@ -188,16 +182,17 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
 
 Json json_of(const std::optional<MeasuredError>& error) {
     if (!error) return nullptr;
+    constexpr double steps = 1e5;  // a thousandth of a percent
     Json pings = Json::array();
     for (const PingError& ping : error->pings) {
         pings.push_back({{"pose", ping.pose},
-                         {"relative_l1", rounded(ping.relative_l1)},
-                         {"reference_noise", rounded(ping.noise)},
+                         {"relative_l1", rounded(ping.relative_l1, steps)},
+                         {"reference_noise", rounded(ping.noise, steps)},
                          {"by", ping.by_finer_image ? "finer image" : "reference"}});
     }
     const std::optional<PingError> worst = error->worst();
-    return {{"mean", rounded(error->mean())},
-            {"worst", worst ? rounded(worst->relative_l1) : Json()},
+    return {{"mean", rounded(error->mean(), steps)},
+            {"worst", worst ? rounded(worst->relative_l1, steps) : Json()},
             {"pings", std::move(pings)}};
 }
 

@@ -68,10 +68,6 @@ std::string cure_of_noise(const SonarConfig& config, const SonarSurvey& found) {
         by);
 }
 
-double share(std::uint64_t part, std::uint64_t whole) {
-    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
 }  // namespace
 
 std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
@@ -111,8 +107,9 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
                                        summary.dark_pings, summary.pings));
         }
         if (summary.dark_pings == summary.pings) continue;
-        judge_brightness(mission.output, assembly.sonars[i], assembly.full_scales[i],
-                         share(summary.clipped_pixels, summary.counts.occupied_bins),
+        const double white_share = static_cast<double>(summary.clipped_pixels) /
+                                   static_cast<double>(summary.counts.occupied_bins);
+        judge_brightness(mission.output, assembly.sonars[i], assembly.full_scales[i], white_share,
                          summary.brightest, out);
     }
     return out;

@@ -24,24 +24,25 @@ constexpr std::size_t max_slow = 9;         // per sonar with a slow echo model
 constexpr std::size_t images_of_slow = 3;   // one in so many of these pings becomes an image
 constexpr double coarse_l1 = 0.2;
 
-/// The surface around a sonar.
-struct Surroundings {
-    std::vector<Eigen::Vector3f> directions;
-    std::vector<Intersection> met;  ///< one for each direction
+/// The surface in one direction from a sonar.
+struct Look {
+    Eigen::Vector3f direction;
+    Intersection met;
+
+    bool meets() const { return std::isfinite(met.distance_m); }
 };
+using Surroundings = std::vector<Look>;
 
 Surroundings look(const View& view, const VisibilityEngine& engine, const Pose& T_world_sensor) {
-    Surroundings around{look_around(view), {}};
     std::vector<Ray> rays;
-    for (const Eigen::Vector3f& direction : around.directions)
+    for (const Eigen::Vector3f& direction : look_around(view))
         rays.push_back({Eigen::Vector3f::Zero(), direction});
-    around.met.resize(rays.size());
-    engine.intersect(T_world_sensor, rays, around.met);
+    std::vector<Intersection> met(rays.size());
+    engine.intersect(T_world_sensor, rays, met);
+    Surroundings around;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        around.push_back({rays[i].direction, met[i]});
     return around;
-}
-
-double elevation_deg(const Eigen::Vector3f& direction) {
-    return degrees(std::asin(std::clamp(static_cast<double>(direction.z()), -1.0, 1.0)));
 }
 
 /// Finds out why a ping saw nothing.
@@ -50,16 +51,16 @@ void explain(const View& view, const Surroundings& around, double to_scene_m,
     ValueRange in_view;
     bool somewhere = false;
     double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
-    for (std::size_t i = 0; i < around.directions.size(); ++i) {
-        const Eigen::Vector3f& direction = around.directions[i];
-        const double distance = around.met[i].distance_m;
-        if (!std::isfinite(distance)) continue;
+    for (const Look& look : around) {
+        if (!look.meets()) continue;
+        const double distance = look.met.distance_m;
         const bool within = distance >= view.range_min_m && distance < view.range_max_m;
         somewhere = somewhere || within;
-        if (beam_of(view, direction) >= 0) {
+        if (beam_of(view, look.direction) >= 0) {
             in_view.take(distance);
-        } else if (within && is_in_azimuth(view, direction)) {
-            const double off = elevation_deg(direction);
+        } else if (within && is_in_azimuth(view, look.direction)) {
+            const double off =
+                degrees(std::asin(std::clamp<double>(look.direction.z(), -1.0, 1.0)));
             if (std::fabs(off) < std::fabs(flattest)) flattest = off;
         }
     }
@@ -139,17 +140,16 @@ void check_position(const Scene& scene, bool open_upwards,
     std::size_t met_above = 0;
     std::size_t met_below = 0;
     std::vector<std::size_t> met(scene.instances.size());
-    for (std::size_t i = 0; i < around.directions.size(); ++i) {
-        const bool up = (T_world_sensor.rotation * around.directions[i].cast<double>()).z() > 0.0;
-        const bool meets = std::isfinite(around.met[i].distance_m);
+    for (const Look& look : around) {
+        const bool up = (T_world_sensor.rotation * look.direction.cast<double>()).z() > 0.0;
         (up ? above : below) += 1;
-        (up ? met_above : met_below) += meets;
-        if (meets) ++met[around.met[i].instance];
+        (up ? met_above : met_below) += look.meets();
+        if (look.meets()) ++met[look.met.instance];
     }
     // Below a sea floor, and below a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto largest = std::ranges::max_element(met);
-    if (met.empty() || 100 * *largest < 98 * around.directions.size()) return;
+    if (met.empty() || 100 * *largest < 98 * around.size()) return;
     const auto instance = static_cast<std::size_t>(largest - met.begin());
     if (boxes[instance].isEmpty()) return;
     if (holds_all(boxes[instance], scene) &&
@@ -163,12 +163,11 @@ void check_position(const Scene& scene, bool open_upwards,
 /// range: it passes the end of the bottom.
 bool passes_edge(const View& view, const Scene& scene, const Pose& T_world_sensor,
                  const Surroundings& around) {
-    for (std::size_t i = 0; i < around.directions.size(); ++i) {
-        const Eigen::Vector3f& direction = around.directions[i];
-        if (std::isfinite(around.met[i].distance_m) || beam_of(view, direction) < 0) continue;
+    for (const Look& look : around) {
+        if (look.meets() || beam_of(view, look.direction) < 0) continue;
         const Eigen::Vector3d end =
             T_world_sensor.translation +
-            T_world_sensor.rotation * (view.range_max_m * direction.cast<double>());
+            T_world_sensor.rotation * (view.range_max_m * look.direction.cast<double>());
         if (end.z() < scene.bounds_min.z()) return true;
     }
     return false;

@@ -23,16 +23,13 @@ constexpr std::size_t max_named = 5;
 // A smaller object, which no range bin resolves, is one in metres that was read as millimetres.
 constexpr double min_object_m = 0.005;
 
-/// A sphere around an object; the frame is the world, or its own if it moves.
+/// An object and the sphere around it; the frame is the world, or its own if it moves.
 struct Extent {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    double radius = -1.0;      ///< below 0: it has no surface
+    Eigen::AlignedBox3d box;   ///< empty: it has no surface
     std::ptrdiff_t body = -1;  ///< index into Scene::bodies; -1: it stands still
-};
 
-Extent sphere_around(const Eigen::AlignedBox3d& box, std::ptrdiff_t body) {
-    return {box.center(), 0.5 * box.diagonal().norm(), body};
-}
+    double radius() const { return 0.5 * box.diagonal().norm(); }
+};
 
 /// True for objects with a class or a name of the mission, but not for the rocks of a bed.
 bool is_wanted(const Mission& mission, const Scene& scene, std::size_t instance) {
@@ -47,16 +44,11 @@ bool is_wanted(const Mission& mission, const Scene& scene, std::size_t instance)
 
 /// One for each instance, wherever its triangles are kept; empty if it has none.
 std::vector<Extent> extents_of(const Scene& scene) {
-    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_instances(scene);
     std::vector<Extent> extents;
-    extents.reserve(boxes.size());
-    for (const Eigen::AlignedBox3d& box : boxes)
-        extents.push_back(box.isEmpty() ? Extent{} : sphere_around(box, -1));
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-        const Body& body = scene.bodies[k];
-        extents[body.instance] =
-            sphere_around(box_of(body.vertices), static_cast<std::ptrdiff_t>(k));
-    }
+    for (const Eigen::AlignedBox3d& box : boxes_of_instances(scene))
+        extents.push_back({box});
+    for (std::ptrdiff_t k = 0; const Body& body : scene.bodies)
+        extents[body.instance] = {box_of(body.vertices), k++};
     return extents;
 }
 
@@ -90,6 +82,7 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
     const auto every = static_cast<std::size_t>(sonar.config.every);
     const std::size_t pings = (assembly.trajectory.size() + every - 1) / every;
     const std::size_t step = every * ((pings + max_poses - 1) / max_poses);
+    const double radius = extent.radius();
     std::vector<PoseInView> poses;
     for (std::size_t i = 0; i < assembly.trajectory.size(); i += step) {
         const TimedPose& at = assembly.trajectory[i];
@@ -99,14 +92,13 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
         Pose T_world_object;
         if (extent.body >= 0) T_world_object = body_poses(assembly, at.t_s)[extent.body];
         const Eigen::Vector3d world =
-            T_world_object.rotation * extent.centre + T_world_object.translation;
+            T_world_object.rotation * extent.box.center() + T_world_object.translation;
         const Eigen::Vector3d visible =
             T_world_sensor.rotation.conjugate() * (world - T_world_sensor.translation);
         const double range = visible.norm();
-        if (range + extent.radius < view.range_min_m || range - extent.radius >= view.range_max_m)
-            continue;
+        if (range + radius < view.range_min_m || range - radius >= view.range_max_m) continue;
         const double angle_off = angle_off_view(view, visible);
-        const double half_width = range > extent.radius ? std::asin(extent.radius / range) : pi;
+        const double half_width = range > radius ? std::asin(radius / range) : pi;
         if (angle_off <= half_width) poses.push_back({pose, angle_off});
     }
     std::ranges::stable_sort(poses, {}, &PoseInView::angle_off);
@@ -171,8 +163,9 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
         const auto is_visible_to = [&](const SonarSurvey& sonar) {
             return sonar.visible_m2[instance] > 0.0;
         };
-        if (extents[instance].radius < 0.0 || !is_wanted(mission, scene, instance)) continue;
-        if (2.0 * extents[instance].radius < resolved_m) {
+        const Extent& extent = extents[instance];
+        if (extent.box.isEmpty() || !is_wanted(mission, scene, instance)) continue;
+        if (2.0 * extent.radius() < resolved_m) {
             tiny.push_back(scene.instances[instance]);
             continue;
         }
@@ -182,7 +175,7 @@ std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& asse
         bool visible = false;
         for (std::size_t i = 0; i < assembly.sonars.size() && !visible; ++i) {
             const std::vector<PoseInView> poses =
-                poses_in_view(mission, assembly, assembly.sonars[i], extents[instance]);
+                poses_in_view(mission, assembly, assembly.sonars[i], extent);
             in_view = in_view || !poses.empty();
             visible = sees(mission, assembly, assembly.sonars[i], poses, instance, rays);
         }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -54,11 +53,6 @@ struct SeenObject {
         ++bins_with_share;
     }
 };
-
-inline Json rounded(const std::optional<double>& value, double per_unit) {
-    if (!value) return nullptr;
-    return std::round(*value * per_unit) / per_unit;
-}
 
 /// The records of a sonar that its objects are found in.
 class ObjectRecords {
