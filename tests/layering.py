@@ -48,7 +48,7 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
     "job": "core mission trajectory visibility sonar assembly dataset checks",
     "report": "core mission scene visibility sonar assembly reference dataset checks job",
-    "preview": "core mission scene visibility trace ping product sonar assembly",
+    "preview": "core mission scene visibility product sonar assembly",
 }.items()}
 assert ALLOWED.keys() == DOOR_OF.keys()
 assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder])

@@ -110,7 +110,7 @@ TEST_CASE("heights: the highest surface below the vehicle, where it is") {
     const auto engine = make_engine(assembly.scene, {});
     const PlaneFrame frame = plane_frame(600, 220, {-20.0, -20.0}, {20.0, 20.0});
     const auto height_at = [&](const std::vector<float>& heights, double x, double y) {
-        const Vector2d at = frame.pixel({x, y}) - Vector2d(frame.left, frame.top);
+        const Vector2d at = frame.pixel({x, y}) - Vector2d(frame.left, 0.0);
         return heights[static_cast<std::size_t>(at.y()) * frame.plot_width +
                        static_cast<std::size_t>(at.x())];
     };

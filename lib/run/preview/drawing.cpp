@@ -111,8 +111,7 @@ void paste(Picture& picture, const Picture& part, int x, int y) {
 }
 
 Eigen::Vector2d PlaneFrame::pixel(const Eigen::Vector2d& at_m) const {
-    return {left + (at_m.x() - low.x()) / pixel_m,
-            top + plot_height - (at_m.y() - low.y()) / pixel_m};
+    return {left + (at_m.x() - low.x()) / pixel_m, plot_height - (at_m.y() - low.y()) / pixel_m};
 }
 
 Eigen::Vector2d PlaneFrame::metres(int column, int row) const {
@@ -127,21 +126,19 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
     frame.left = left_margin(low, high);
     frame.plot_width = width - frame.left - 1;
     frame.plot_height = height - bottom_margin;
-    const Eigen::Vector2d extent = (high - low).cwiseMax(1e-3);
-    frame.pixel_m = std::max(extent.x() / frame.plot_width, extent.y() / frame.plot_height);
-    const Eigen::Vector2d shown =
-        frame.pixel_m * Eigen::Vector2d(frame.plot_width, frame.plot_height);
-    frame.low = 0.5 * (low + high) - 0.5 * shown;
+    const Eigen::Vector2d plot(frame.plot_width, frame.plot_height);
+    frame.pixel_m = (high - low).cwiseMax(1e-3).cwiseQuotient(plot).maxCoeff();
+    frame.low = 0.5 * (low + high) - 0.5 * (frame.pixel_m * plot);
     return frame;
 }
 
 void draw_axes(Picture& tile, const PlaneFrame& frame) {
-    const int bottom = frame.top + frame.plot_height;
+    const int bottom = frame.plot_height;
     fill(tile, 0, 0, frame.left, frame.height, backdrop);
     fill(tile, 0, bottom, frame.width, frame.height - bottom, backdrop);
     const int right = frame.left + frame.plot_width;
     fill(tile, right, 0, frame.width - right, frame.height, backdrop);
-    fill(tile, frame.left - 1, frame.top, 1, frame.plot_height, ink);
+    fill(tile, frame.left - 1, 0, 1, bottom, ink);
     fill(tile, frame.left - 1, bottom, frame.plot_width + 1, 1, ink);
     const Eigen::Vector2d high =
         frame.low + frame.pixel_m * Eigen::Vector2d(frame.plot_width, frame.plot_height);

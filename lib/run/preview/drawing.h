@@ -32,8 +32,7 @@ void paste(Picture& picture, const Picture& part, int x, int y);
 struct PlaneFrame {
     int width = 0;  ///< tile, px
     int height = 0;
-    int left = 0;  ///< plot in the tile, px
-    int top = 0;
+    int left = 0;  ///< plot in the tile, from its upper edge on, px
     int plot_width = 0;
     int plot_height = 0;
     Eigen::Vector2d low;  ///< at the lower left corner of the plot, m

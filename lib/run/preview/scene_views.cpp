@@ -56,8 +56,7 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
         const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
         const Rgb full = blend(sea_colours, (heights[k] - low) / (high - low));
         const Rgb ends[] = {backdrop, full};
-        tile.row(frame.top + static_cast<int>(k / width))[frame.left + k % width] =
-            blend(ends, light);
+        tile.row(static_cast<int>(k / width))[frame.left + k % width] = blend(ends, light);
     }
 }
 
@@ -232,7 +231,7 @@ std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose
 
 std::vector<AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
                                        const std::vector<ObjectBox>& objects) {
-    const Vector2d corner(frame.left, frame.top);
+    const Vector2d corner(frame.left, 0.0);
     const AlignedBox2d plot(corner, corner + Vector2d(frame.plot_width, frame.plot_height));
     std::vector<std::pair<AlignedBox2d, const ObjectBox*>> shown;
     for (const ObjectBox& object : objects) {
