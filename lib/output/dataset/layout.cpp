@@ -65,14 +65,13 @@ std::vector<std::filesystem::path> Layout::folders() const {
 }
 
 Layout make_layout(const Mission& mission, std::vector<Writers> writers, std::size_t poses) {
-    const std::vector<std::size_t> pings = count_pings(mission, poses);
     Layout layout;
     layout.folder = mission.output.folder;
     for (std::size_t i = 0; i < writers.size(); ++i) {
         const SonarConfig& config = mission.sensors[i];
         layout.sensors.push_back({.name = config.name,
                                   .every = static_cast<std::uint32_t>(config.every),
-                                  .pings = pings[i],
+                                  .pings = count_pings(config, poses),
                                   .writers = std::move(writers[i])});
     }
     if (mission.scene.seabed) layout.products = seabed_file_names();

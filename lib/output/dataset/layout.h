@@ -14,8 +14,8 @@
 //     OUT/mission.resolved.yaml       the mission with every default written out
 //     OUT/SHA256SUMS                  of every other file, once all of them are there
 //     OUT/trajectory.tum              the pose of every ping number
-//     OUT/journal.txt                 the size and hash of every file of a ping, see
-//     run/job/journal.h;
+//     OUT/journal.txt                 the size and hash of every file of a ping
+//     (run/job/journal.h);
 //                                     while the mission runs, parts of it lie in OUT/journal.d/
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them

@@ -7,7 +7,7 @@
 #include "input/mission/resolved.h"
 #include "input/scene/maps/ground_maps.h"
 #include "input/trajectory/files.h"
-#include "output/dataset/annotated_objects.h"
+#include "output/dataset/labelled_ping.h"
 #include "output/format/png.h"
 #include "simulate/sonar/kinds.h"
 
@@ -54,13 +54,6 @@ void describe_ping_file(const PingFile& file, const SensorLayout& own, const std
     Json& array = json["arrays"][file.name];
     array["axes"] = is_fan ? Json{"row", "column"} : Json{"range", "azimuth"};
     if (!file.ids.empty()) array["ids"] = file.ids;
-}
-
-Json describe_record(const PingRecord& record, const std::string& folder, std::string_view name) {
-    Json json = {{"file", folder + "/" + record.file}, {"axes", record.axes}};
-    if (record.label.empty()) json["name"] = name;
-    if (!record.ids.empty()) json["ids"] = record.ids;
-    return json;
 }
 
 /// The names of the ids of labels, with the world boxes (m) of instances that stand still, and the
@@ -115,8 +108,11 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
                 (file->array == PingArray::fan ? fans : pictures).push_back(std::move(picture));
         } else {
             const auto& record = std::get<PingRecord>(writer.per_ping);
-            (record.label.empty() ? json["records"] : json["label_records"][record.label]) =
-                describe_record(record, config.name, kind_of(config.kind).record.name);
+            Json& described =
+                record.label.empty() ? json["records"] : json["label_records"][record.label];
+            described = {{"file", config.name + "/" + record.file}, {"axes", record.axes}};
+            if (record.label.empty()) described["name"] = kind_of(config.kind).record.name;
+            if (!record.ids.empty()) described["ids"] = record.ids;
         }
     }
     fans.insert(fans.end(), pictures.begin(), pictures.end());

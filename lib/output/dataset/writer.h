@@ -154,7 +154,10 @@ Writers make_writers(const WriterContext& context);
 /// The writers of a sensor's raw values and labels alone; empty if the mission asks for neither.
 Writers make_array_writers(const WriterContext& context);
 
-/// The number of pings of each sensor.
-std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
+/// The number of pings of a sensor on a trajectory of `poses` poses.
+inline std::size_t count_pings(const SonarConfig& sensor, std::size_t poses) {
+    const auto every = static_cast<std::size_t>(sensor.every);
+    return (poses + every - 1) / every;
+}
 
 }  // namespace sonarsim

@@ -47,15 +47,6 @@ void check_fan_label(const Mission& mission) {
 
 }  // namespace
 
-std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) {
-    std::vector<std::size_t> pings;
-    for (const SonarConfig& sensor : mission.sensors) {
-        const auto every = static_cast<std::size_t>(sensor.every);
-        pings.push_back((poses + every - 1) / every);
-    }
-    return pings;
-}
-
 Writers make_array_writers(const WriterContext& context) {
     Writers writers = make_label_writers(context);
     if (has_raw(context)) writers.insert(writers.begin(), make_raw_writer(context));
@@ -87,10 +78,11 @@ Writers make_writers(const WriterContext& context) {
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
     check_fan_label(mission);
-    const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
-    std::vector<Writers> all(mission.sensors.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = make_writers({mission, assembly, i, pings[i]});
+    std::vector<Writers> all;
+    for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
+        const std::size_t pings = count_pings(mission.sensors[i], assembly.trajectory.size());
+        all.push_back(make_writers({mission, assembly, i, pings}));
+    }
     return all;
 }
 

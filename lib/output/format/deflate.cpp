@@ -1,5 +1,3 @@
-#include "output/format/deflate.h"
-
 #include <immintrin.h>
 #include <libdeflate.h>
 
@@ -11,6 +9,8 @@
 #include <queue>
 #include <utility>
 #include <vector>
+
+#include "output/format/png.h"
 
 namespace sonarsim {
 

@@ -104,25 +104,21 @@ std::string cure_of(const Mission& mission, double worst) {
 
 }  // namespace
 
-std::vector<PingError> MeasuredError::measured() const {
-    std::vector<PingError> found = pings;
-    std::erase_if(found, [](const PingError& ping) { return !ping.relative_l1; });
-    return found;
-}
-
 std::optional<double> MeasuredError::mean() const {
-    const std::vector<PingError> found = measured();
-    if (found.empty()) return {};
     double sum = 0.0;
-    for (const PingError& ping : found)
-        sum += *ping.relative_l1;
-    return sum / static_cast<double>(found.size());
+    int measured = 0;
+    for (const PingError& ping : pings) {
+        sum += ping.relative_l1.value_or(0.0);
+        measured += ping.relative_l1.has_value();
+    }
+    if (measured == 0) return {};
+    return sum / measured;
 }
 
 std::optional<PingError> MeasuredError::worst() const {
-    const std::vector<PingError> found = measured();
-    if (found.empty()) return {};
-    return *std::ranges::max_element(found, {}, &PingError::relative_l1);
+    const auto worst = std::ranges::max_element(pings, {}, &PingError::relative_l1);
+    if (worst == pings.end() || !worst->relative_l1) return {};
+    return *worst;
 }
 
 double MeasuredError::min_measurable() const {

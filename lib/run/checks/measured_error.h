@@ -26,9 +26,8 @@ struct PingError {
 struct MeasuredError {
     std::vector<PingError> pings;
 
-    std::vector<PingError> measured() const;  ///< the pings with a relative L1
-    std::optional<double> mean() const;       ///< over the measured pings
-    std::optional<PingError> worst() const;   ///< the largest error of a measured ping
+    std::optional<double> mean() const;      ///< over the pings with a relative L1
+    std::optional<PingError> worst() const;  ///< the largest error of these
     /// The least error that could be measured in all pings; 0 where each has one.
     double min_measurable() const;
 };

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "input/scene/copies.h"
 #include "input/scene/seabed/seabed.h"
+#include "output/dataset/writer.h"
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"
@@ -80,7 +81,7 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
                                       const Sonar& sonar, const Extent& extent) {
     const View& view = sonar.settings.view;
     const auto every = static_cast<std::size_t>(sonar.config.every);
-    const std::size_t pings = (assembly.trajectory.size() + every - 1) / every;
+    const std::size_t pings = count_pings(sonar.config, assembly.trajectory.size());
     const std::size_t step = every * ((pings + max_poses - 1) / max_poses);
     const double radius = extent.radius();
     std::vector<PoseInView> poses;

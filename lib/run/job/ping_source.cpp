@@ -24,10 +24,10 @@ std::filesystem::path file_of(const Writer& writer) {
 
 PingSource::PingSource(const Mission& of, Assembly assembled)
     : mission(of), assembly(std::move(assembled)), engine_(make_engine(mission, assembly)) {
-    const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
-    for (std::size_t i = 0; i < pings.size(); ++i) {
+    for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
+        const std::size_t pings = count_pings(mission.sensors[i], assembly.trajectory.size());
         plans_.push_back(plan_labels(mission, assembly, assembly.sonars[i]));
-        writers_.push_back(make_array_writers({mission, assembly, i, pings[i]}));
+        writers_.push_back(make_array_writers({mission, assembly, i, pings}));
     }
 }
 

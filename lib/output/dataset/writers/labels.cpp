@@ -90,14 +90,6 @@ Ids visible_shares(const PingLabels& labels) {
     return rounded;
 }
 
-/// Labels that are floats, [beams, range bins].
-using FloatsOf = const Floats& (*)(const PingLabels& labels);
-
-template <Floats PingLabels::*member>
-const Floats& floats(const PingLabels& labels) {
-    return labels.*member;
-}
-
 /// The image of some terms of the echo, [range bins, beams].
 Floats image_of(const WriterContext& context, const FinishedPing& finished, const Terms& terms) {
     return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
@@ -110,7 +102,7 @@ struct LabelFile {
     Label label;
     const char* name;
     IdsOf ids_of = nullptr;
-    FloatsOf floats_of = nullptr;
+    Floats PingLabels::*floats = nullptr;
     const Terms* terms = nullptr;  ///< the terms of an image
     const char* ids = "";          ///< as in PingFile
 };
@@ -122,9 +114,9 @@ constexpr LabelFile label_files[] = {
     {Label::second, "second_share", shares<&PingLabels::second_share>},
     {Label::class_name, "class", ids<&PingLabels::class_id>, {}, {}, "classes"},
     {Label::material, "material", ids<&PingLabels::material>, {}, {}, "materials"},
-    {Label::elevation, "elevation", {}, floats<&PingLabels::elevation_rad>},
-    {Label::elevation, "elevation_spread", {}, floats<&PingLabels::elevation_spread_rad>},
-    {Label::height, "height", {}, floats<&PingLabels::height_m>},
+    {Label::elevation, "elevation", {}, &PingLabels::elevation_rad},
+    {Label::elevation, "elevation_spread", {}, &PingLabels::elevation_spread_rad},
+    {Label::height, "height", {}, &PingLabels::height_m},
     {Label::shadow, "shadow", ids<&PingLabels::shadow>, {}, {}, "instances"},
     {Label::multipath, "multipath", shares<&PingLabels::multipath>},
     {Label::clean, "clean", {}, {}, &without_random_terms},
@@ -147,7 +139,7 @@ PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
     if (file.terms) return numbers_of(sonar, image_of(context, finished, *file.terms), 0.0F);
     if (file.ids_of)
         return numbers_of<std::uint16_t>(sonar, rows_of_range(file.ids_of(labels), labels), 0);
-    return numbers_of(sonar, rows_of_range(file.floats_of(labels), labels), std::nanf(""));
+    return numbers_of(sonar, rows_of_range(labels.*file.floats, labels), std::nanf(""));
 }
 
 /// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "output/dataset/annotated_objects.h"
 #include "output/dataset/writer.h"
 #include "simulate/sonar/kinds.h"
 
@@ -32,101 +31,91 @@ const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id
     return found != masks.end() && found->id == id ? &*found : nullptr;
 }
 
-/// The facts of objects in pings.
-class PingObjects {
-  public:
-    explicit PingObjects(const WriterContext& context)
-        : context_(context),
-          view_(context.sonar().settings.view),
-          boxes_(object_boxes(context.assembly)),
-          moving_(moving_objects(context.assembly)) {}
-
-    std::string text(const FinishedPing& finished) const {
-        std::vector<Json> objects;
-        const std::vector<Pose> T_world_body =
-            body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
-        for (const ObjectInPing& visible : finished.labels->visible) {
-            objects.push_back(visible_json(visible, finished, T_world_body));
-        }
-        return objects_text({{"ping", finished.id.pose}}, objects);
-    }
-
-  private:
-    Json visible_json(const ObjectInPing& visible, const FinishedPing& finished,
-                      std::span<const Pose> T_world_body) const {
-        const SceneObjects& objects = context_.assembly.objects;
-        const SceneObjects::Object& object = objects.objects[visible.id - 1];
-        const ObjectMask& mask = *mask_of(finished.labels->polar, visible.id);
-        Json json = {
-            {"id", visible.id},
-            {"name", object.name},
-            {"class", objects.classes[object.class_index]},
-            {"box_bins", {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
-            {"area_bins", mask.area},
-            {"level", visible.level},
-            {"level_around", number_or_null(visible.surrounding_level)},
-            {"range_m", visible.range_m},
-            {"azimuth_rad", number_or_null(visible.azimuth_rad)}};
-        json["seen_box_sensor_m"] = describe_box(visible.box_sensor_m);
-        const Pose& T_world_sensor = finished.traced.T_world_sensor;
-        if (const std::optional<MovingObject>& moving = moving_[visible.id - 1]) {
-            const Pose& T_world_object = T_world_body[moving->body];
-            json["T_world_object"] = describe_pose(T_world_object);
-            json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
-        } else {
-            json["box_sensor"] = placed_box_json(boxes_[visible.id - 1], {}, T_world_sensor);
-        }
-        if (!finished.labels->bins.visible_share.empty())
-            json["visible_share"] = finished.labels->bins.visible_share[visible.id - 1];
-        json["contrast_db"] = number_or_null(visible.contrast_db);
-        if (!visible.shadow.is_empty()) json["shadow"] = shadow_json(visible);
-        json["clipped"] = is_clipped(mask);
-        json["mask"] = coco_counts(mask.runs);
-        if (finished.labels->fan_bins) {
-            json["fan"] = fan_json(visible, mask_of(finished.labels->fan, visible.id));
-        }
-        return json;
-    }
-
-    /// True if its bins touch the first or last range bin or an edge beam: the view cuts it off.
-    bool is_clipped(const ObjectMask& mask) const {
-        const bool at_side = mask.left == 0 || mask.right == view_.beams;
-        return mask.top == 0 || mask.bottom == view_.range_bins ||
-               (at_side && !is_full_turn(view_));
-    }
-
-    static Json shadow_json(const ObjectInPing& visible) {
-        const BinBox& box = visible.shadow;
-        return {{"box_bins",
-                 {{"range", {box.first_bin, box.last_bin + 1}},
-                  {"beam", {box.first_line, box.last_line + 1}}}},
-                {"area_bins", visible.shadow_bins},
-                {"contrast_db", number_or_null(visible.shadow_contrast_db)}};
-    }
-
-    /// Null for an object that lies between the pixels.
-    Json fan_json(const ObjectInPing& visible, const ObjectMask* mask) const {
-        if (!mask) return nullptr;
-        Json json = {{"box_px", describe_box({mask->left, mask->right, mask->top, mask->bottom})},
-                     {"area_px", mask->area}};
-        if (!visible.shadow_in_fan.is_empty())
-            json["shadow_box_px"] = describe_box(visible.shadow_in_fan);
-        json["mask"] = coco_counts(mask->runs);
-        return json;
-    }
-
-    WriterContext context_;
-    const View& view_;
-    std::vector<Eigen::AlignedBox3d> boxes_;           ///< indexed by object, world frame
-    std::vector<std::optional<MovingObject>> moving_;  ///< indexed by object
+/// The boxes of the objects, indexed by object.
+struct ObjectBoxes {
+    std::vector<Eigen::AlignedBox3d> still;  ///< world
+    std::vector<std::optional<MovingObject>> moving;
 };
+
+/// True if its bins touch the first or last range bin or an edge beam: the view cuts it off.
+bool is_clipped(const View& view, const ObjectMask& mask) {
+    const bool at_side = mask.left == 0 || mask.right == view.beams;
+    return mask.top == 0 || mask.bottom == view.range_bins || (at_side && !is_full_turn(view));
+}
+
+Json shadow_json(const ObjectInPing& visible) {
+    const BinBox& box = visible.shadow;
+    return {{"box_bins",
+             {{"range", {box.first_bin, box.last_bin + 1}},
+              {"beam", {box.first_line, box.last_line + 1}}}},
+            {"area_bins", visible.shadow_bins},
+            {"contrast_db", number_or_null(visible.shadow_contrast_db)}};
+}
+
+/// Null for an object that lies between the pixels.
+Json fan_json(const ObjectInPing& visible, const ObjectMask* mask) {
+    if (!mask) return nullptr;
+    Json json = {{"box_px", describe_box({mask->left, mask->right, mask->top, mask->bottom})},
+                 {"area_px", mask->area}};
+    if (!visible.shadow_in_fan.is_empty())
+        json["shadow_box_px"] = describe_box(visible.shadow_in_fan);
+    json["mask"] = coco_counts(mask->runs);
+    return json;
+}
+
+/// The facts of an object in a ping.
+Json visible_json(const WriterContext& context, const ObjectBoxes& boxes,
+                  const ObjectInPing& visible, const FinishedPing& finished,
+                  std::span<const Pose> T_world_body) {
+    const SceneObjects& objects = context.assembly.objects;
+    const SceneObjects::Object& object = objects.objects[visible.id - 1];
+    const ObjectMask& mask = *mask_of(finished.labels->polar, visible.id);
+    Json json = {
+        {"id", visible.id},
+        {"name", object.name},
+        {"class", objects.classes[object.class_index]},
+        {"box_bins", {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
+        {"area_bins", mask.area},
+        {"level", visible.level},
+        {"level_around", number_or_null(visible.surrounding_level)},
+        {"range_m", visible.range_m},
+        {"azimuth_rad", number_or_null(visible.azimuth_rad)}};
+    json["seen_box_sensor_m"] = describe_box(visible.box_sensor_m);
+    const Pose& T_world_sensor = finished.traced.T_world_sensor;
+    if (const std::optional<MovingObject>& moving = boxes.moving[visible.id - 1]) {
+        const Pose& T_world_object = T_world_body[moving->body];
+        json["T_world_object"] = describe_pose(T_world_object);
+        json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
+    } else {
+        json["box_sensor"] = placed_box_json(boxes.still[visible.id - 1], {}, T_world_sensor);
+    }
+    if (!finished.labels->bins.visible_share.empty())
+        json["visible_share"] = finished.labels->bins.visible_share[visible.id - 1];
+    json["contrast_db"] = number_or_null(visible.contrast_db);
+    if (!visible.shadow.is_empty()) json["shadow"] = shadow_json(visible);
+    json["clipped"] = is_clipped(context.sonar().settings.view, mask);
+    json["mask"] = coco_counts(mask.runs);
+    if (finished.labels->fan_bins) {
+        json["fan"] = fan_json(visible, mask_of(finished.labels->fan, visible.id));
+    }
+    return json;
+}
 
 }  // namespace
 
 Writer objects_writer(const WriterContext& context) {
-    return {.per_ping = PingFile{"objects", ".json"},
-            .encode = [facts = std::make_shared<const PingObjects>(context)](
-                          const FinishedPing& finished) { return facts->text(finished); }};
+    const auto boxes = std::make_shared<const ObjectBoxes>(
+        ObjectBoxes{object_boxes(context.assembly), moving_objects(context.assembly)});
+    const auto encode = [=](const FinishedPing& finished) {
+        const Assembly& assembly = context.assembly;
+        const std::vector<Pose> T_world_body =
+            body_poses(assembly, assembly.trajectory[finished.id.pose].t_s);
+        std::vector<Json> objects;
+        for (const ObjectInPing& visible : finished.labels->visible)
+            objects.push_back(visible_json(context, *boxes, visible, finished, T_world_body));
+        return objects_text({{"ping", finished.id.pose}}, objects);
+    };
+    return {.per_ping = PingFile{"objects", ".json"}, .encode = encode};
 }
 
 }  // namespace sonarsim

@@ -19,14 +19,8 @@ namespace sonarsim {
 
 namespace {
 
-Pose pose_of_sensor(const WriterContext& context, std::size_t pose) {
-    const auto number = static_cast<std::uint32_t>(pose);
-    const SonarAtPose then(context.mission, context.sonar(), number);
-    return sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, number);
-}
-
 struct RecordedRow {
-    std::size_t pose;
+    std::uint32_t pose;
     Pose T_world_sensor;
     std::span<const float> values;
     std::optional<Swath> swath;
@@ -38,8 +32,11 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     std::vector<float> values(rows.record_bytes() / sizeof(float));
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
-        const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
-        const Pose T_world_sensor = pose_of_sensor(context, pose);
+        const auto pose =
+            static_cast<std::uint32_t>(k) * static_cast<std::uint32_t>(sonar.config.every);
+        const SonarAtPose then(context.mission, sonar, pose);
+        const Pose T_world_sensor =
+            sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, pose);
         visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
     }
 }
@@ -57,7 +54,7 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
     const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
     const Eigen::Vector3d& position = row.T_world_sensor.translation;
     const Eigen::Vector2d on_map = map_origin(context.mission) + position.head<2>();
-    return {.number = static_cast<std::uint32_t>(row.pose),
+    return {.number = row.pose,
             .t_s = trajectory[row.pose].t_s,
             .x_m = on_map.x(),
             .y_m = on_map.y(),
@@ -108,7 +105,7 @@ double mosaic_cell_m(const WriterContext& context) {
                   trajectory[k - 1].T_world_vehicle.translation)
                      .norm();
     }
-    const std::size_t pings = count_pings(context.mission, trajectory.size()).at(context.sensor);
+    const std::size_t pings = count_pings(context.sonar().config, trajectory.size());
     const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, pings));
     return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
 }
