@@ -22,7 +22,6 @@ struct DescribedSensor {
     std::vector<std::string> products;
 };
 
-/// A dataset.json.
 struct DatasetFile {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     Json json;        ///< all of it
     bool complete = false;
@@ -69,7 +68,6 @@ bool has_sums(const std::filesystem::path& folder, const DatasetFile& dataset);
 std::vector<std::string> list_files(const std::filesystem::path& folder,
                                     const DatasetFile& dataset);
 
-/// The pings of all sensors.
 std::uint64_t count_pings(const DatasetFile& dataset);
 
 /// True if the text is the name of a file or folder that lies in another one directly: letters of

@@ -32,7 +32,6 @@ std::string journal_part(int shard, int shards);
 /// meanwhile.
 std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder);
 
-/// The files of one sensor.
 struct SensorLayout {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
@@ -40,7 +39,6 @@ struct SensorLayout {
     Writers writers;
 };
 
-/// The files of a dataset.
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;

@@ -19,13 +19,6 @@ constexpr const char* seabed_place_name = "seabed/materials.pgw";
 /// The place of these maps, the materials, and all rocks.
 constexpr const char* seabed_list_name = "seabed/seabed.json";
 
-MapPlace place_of(const Seabed& bed) {
-    const BedGrid& grid = bed.grid;
-    return {.west_m = grid.x_m(0) - 0.5 * grid.cell_m,
-            .north_m = grid.y_m(0) + 0.5 * grid.cell_m,
-            .cell_m = grid.cell_m};
-}
-
 Json list_materials(const Seabed& bed) {
     std::vector<std::size_t> counts(bed.materials.size(), 0);
     for (const std::uint8_t sediment : bed.sediments.cells)
@@ -63,7 +56,9 @@ std::vector<std::string> seabed_file_names() {
 
 std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed) {
     const BedGrid& grid = bed.grid;
-    const MapPlace place = place_of(bed);
+    const MapPlace place{.west_m = grid.x_m(0) - 0.5 * grid.cell_m,
+                         .north_m = grid.y_m(0) + 0.5 * grid.cell_m,
+                         .cell_m = grid.cell_m};
     const Json list{{"grid",
                      {{"west_m", place.west_m},
                       {"north_m", place.north_m},

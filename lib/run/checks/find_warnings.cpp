@@ -1,7 +1,6 @@
 #include "run/checks/find_warnings.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -113,19 +112,16 @@ void judge_azimuth(const SonarConfig& config, std::vector<Warning>& out) {
                                config.azimuth_deg, degrees(config.azimuth_deg)));
 }
 
-/// The time from the begin of a ping until its sound is back from the greatest range, s.
-double ping_time_s(const Sonar& sonar, double sound_speed_m_s) {
-    return (sonar.config.shutter.groups - 1) * group_period_s(sonar, sound_speed_m_s) +
-           2.0 * sonar.config.range_max_m / sound_speed_m_s;
-}
-
 /// W39: pings that begin before the sound of the ping before is back. The poses of
 /// trajectory.look_at have no times of their own.
 void judge_ping_rate(const Mission& mission, const Trajectory& trajectory, const Sonar& sonar,
                      std::vector<Warning>& out) {
     if (std::holds_alternative<LookAtTrajectoryConfig>(mission.trajectory)) return;
     constexpr double rounding = 1e-6;
-    const double needed_s = ping_time_s(sonar, mission.water.sound_speed_m_s);
+    const double sound_speed_m_s = mission.water.sound_speed_m_s;
+    const double needed_s =
+        (sonar.config.shutter.groups - 1) * group_period_s(sonar, sound_speed_m_s) +
+        2.0 * sonar.config.range_max_m / sound_speed_m_s;
     const auto every = static_cast<std::size_t>(sonar.config.every);
     std::size_t early = 0;
     double min_s = needed_s;

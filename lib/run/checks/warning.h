@@ -49,7 +49,6 @@ std::span<const WarningText> warning_table();
 /// The table in Markdown, for docs/warnings.md.
 std::string warning_table_markdown();
 
-/// A warning with its figures.
 struct Warning {
     WarningCode code;
     std::string about;  ///< "sensor 'fls'"
@@ -65,7 +64,6 @@ Warning make_warning(WarningCode code, std::string about, const Figures&... figu
             fmt::vformat(text.cure, fmt::make_format_args(figures...))};
 }
 
-/// Moves warnings to the end of others.
 void append(std::vector<Warning>& out, std::vector<Warning> more);
 
 /// "W12".

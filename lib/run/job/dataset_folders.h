@@ -13,7 +13,6 @@
 
 namespace sonarsim {
 
-/// The progress of a job.
 struct JobStatus {
     std::string mission;
     std::size_t variants = 0;           ///< 0: a mission without variants
@@ -51,7 +50,6 @@ MergeSummary merge_parts(const std::vector<std::filesystem::path>& parts,
                          const std::filesystem::path& out, const ProgressCallback& progress,
                          const std::atomic<bool>& stop);
 
-/// The result of verify_folder().
 struct DatasetCheck {
     std::uint64_t files = 0;  ///< number of files that were read
     std::uint64_t bytes = 0;

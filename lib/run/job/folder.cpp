@@ -12,7 +12,6 @@
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "input/trajectory/files.h"
-#include "output/dataset/json.h"
 #include "output/dataset/metadata.h"
 #include "output/dataset/seabed_files.h"
 #include "run/job/shard_lock.h"
@@ -89,11 +88,6 @@ std::vector<fs::path> leftovers(const fs::path& folder, const Json& description)
 }
 
 }  // namespace
-
-void remove_temporary_files(const fs::path& folder) {
-    for (const fs::path& file : temporary_files<fs::directory_iterator>(folder))
-        fs::remove(file);
-}
 
 void remove_leftovers(const fs::path& folder, const Json& description) {
     for (const fs::path& file : leftovers(folder, description))
@@ -193,7 +187,7 @@ void protect_inputs(const Layout& layout, const Mission& mission) {
 }
 
 void remove_dataset(const fs::path& folder, const Mission& mission) {
-    remove_temporary_files(folder);
+    remove_leftovers(folder);
     if (!fs::exists(folder / description_name)) return;
     std::set<std::string> own = own_names(own_description(folder));
     spare_inputs(folder, own, mission);

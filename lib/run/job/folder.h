@@ -75,12 +75,10 @@ FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles&
 /// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
 void write_common_files(const Layout& layout, const CommonFiles& files);
 
-/// Removes the temporary files that interrupted runs left in a folder, in which nobody may be at
-/// work; nothing if there is no such folder.
-void remove_temporary_files(const std::filesystem::path& folder);
-
-/// The same for the folder of a dataset and those in it that `description` (dataset.json) names.
-void remove_leftovers(const std::filesystem::path& folder, const Json& description);
+/// Removes the temporary files that interrupted runs left in a folder, and in those in it that
+/// `description` (dataset.json) names. Nobody may be at work there.
+void remove_leftovers(const std::filesystem::path& folder,
+                      const Json& description = Json::object());
 
 /// Removes what killed runs left in the folder of a complete dataset, or of variants: parts of the
 /// journal and, unless another run is at work there or the disk cannot be written to, temporary

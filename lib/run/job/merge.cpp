@@ -153,7 +153,7 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
         require_same_variants(part, json, parts[0]);
     inspect_variants(out, json, {}, false);
     const ShardLock lock(out, 0, 1);
-    remove_temporary_files(out);
+    remove_leftovers(out);
     claim_variants(out, json);
     const std::vector<fs::path> names = folders_of_variants("", json);
     for (std::size_t i = 0; i < names.size() && !summary.stopped; ++i) {

@@ -1,7 +1,6 @@
 #include "run/job/ping_source.h"
 
 #include <filesystem>
-#include <utility>
 #include <variant>
 
 #include "output/dataset/encode_ping.h"

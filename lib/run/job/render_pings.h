@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "output/dataset/layout.h"
@@ -18,7 +17,6 @@ namespace sonarsim {
 /// One for each sensor and writer; null if the writer writes a file per ping.
 using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
-/// Opens the record files of a dataset, or makes them.
 RecordFiles open_records(const Layout& layout, RecordAccess access);
 
 /// The pings that need not be rendered: the journal lists them, and their files and records are as

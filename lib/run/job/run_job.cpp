@@ -5,7 +5,6 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -16,7 +15,6 @@
 #include "run/checks/measured_error.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
-#include "run/job/render_pings.h"
 #include "run/job/shard_lock.h"
 
 namespace sonarsim {
@@ -96,8 +94,8 @@ void complete_dataset(const Layout& layout, RecordFiles& records, const CommonFi
         for (std::size_t k = 0; k < records[i].size(); ++k) {
             const Writer& writer = layout.sensors[i].writers[k];
             if (!records[i][k]) {
-                remove_temporary_files(layout.sensor_folder(i) /
-                                       std::get<PingFile>(writer.per_ping).name);
+                remove_leftovers(layout.sensor_folder(i) /
+                                 std::get<PingFile>(writer.per_ping).name);
                 continue;
             }
             if (writer.write_products)

@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* render_again = "run the render command of the dataset again";
 
-/// A file to be checked.
 struct Task {
     std::string name;  ///< relative to the folder that is checked
     std::string sum;

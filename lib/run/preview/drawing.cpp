@@ -36,13 +36,6 @@ std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size
     return std::pair(begin, end);
 }
 
-/// The margin holds the longest number of the vertical axis.
-int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
-    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
-    return std::max(min_left_margin, text_width(longest) + 12);
-}
-
 }  // namespace
 
 void tint(Picture& picture, int x, int y, Rgb colour, float share) {
@@ -121,9 +114,10 @@ Eigen::Vector2d PlaneFrame::metres(int column, int row) const {
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high) {
     PlaneFrame frame;
-    frame.width = width;
-    frame.height = height;
-    frame.left = left_margin(low, high);
+    // The margin holds the longest number of the vertical axis.
+    const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
+    const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
+    frame.left = std::max(min_left_margin, text_width(longest) + 12);
     frame.plot_width = width - frame.left - 1;
     frame.plot_height = height - bottom_margin;
     const Eigen::Vector2d plot(frame.plot_width, frame.plot_height);
@@ -134,10 +128,10 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
 
 void draw_axes(Picture& tile, const PlaneFrame& frame) {
     const int bottom = frame.plot_height;
-    fill(tile, 0, 0, frame.left, frame.height, backdrop);
-    fill(tile, 0, bottom, frame.width, frame.height - bottom, backdrop);
+    fill(tile, 0, 0, frame.left, tile.height, backdrop);
+    fill(tile, 0, bottom, tile.width, tile.height - bottom, backdrop);
     const int right = frame.left + frame.plot_width;
-    fill(tile, right, 0, frame.width - right, frame.height, backdrop);
+    fill(tile, right, 0, tile.width - right, tile.height, backdrop);
     fill(tile, frame.left - 1, 0, 1, bottom, ink);
     fill(tile, frame.left - 1, bottom, frame.plot_width + 1, 1, ink);
     const Eigen::Vector2d high =

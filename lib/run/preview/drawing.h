@@ -30,9 +30,7 @@ void paste(Picture& picture, const Picture& part, int x, int y);
 /// The mapping of a plane to a tile: metres to pixels, with the same scale on both axes and margins
 /// for the numbers of the axes.
 struct PlaneFrame {
-    int width = 0;  ///< tile, px
-    int height = 0;
-    int left = 0;  ///< plot in the tile, from its upper edge on, px
+    int left = 0;  ///< plot in a tile, from its upper edge on, px
     int plot_width = 0;
     int plot_height = 0;
     Eigen::Vector2d low;  ///< at the lower left corner of the plot, m

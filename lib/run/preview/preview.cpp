@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include "core/units.h"
 #include "simulate/assembly/poses.h"
@@ -52,14 +51,6 @@ std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
                        view.range_bins, view.beams);
 }
 
-/// Limits the sampling to what the picture can show.
-Sonar coarse(Sonar sonar) {
-    constexpr double coarse_l1 = 0.1;
-    View& view = sonar.settings.view;
-    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
-    return sonar;
-}
-
 /// The text, cut off where the width ends.
 std::string fitting_text(const std::string& text, int width) {
     std::string fits = text;
@@ -102,7 +93,9 @@ Preview draw_preview(const Mission& mission, const Assembly& assembly, std::uint
     Moment moment{assembly, *now, pose, {}};
     std::vector<Tile> tiles;
     for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-        const Sonar sonar = coarse(assembly.sonars[i]);
+        Sonar sonar = assembly.sonars[i];
+        double& goal = sonar.settings.view.relative_l1;
+        goal = std::max(goal, 0.1);  // the picture shows no more
         const Rgb colour = sonar_colours[i % std::size(sonar_colours)];
         const std::uint32_t ping = ping_at(sonar, pose);
         const Pose& T_world_vehicle = trajectory[ping].T_world_vehicle;

@@ -36,9 +36,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick);
 /// view of its sonars; empty otherwise.
 std::string unsupported(const Setting& setting, const Assembly& assembly);
 
-// The report of speed against error: the time and the accuracy of each engine and setting for a
-// mission.
-
 /// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" for the octree,
 /// which has none.
 const char* goal_of(const Setting& setting, double worst_relative_l1);
@@ -64,7 +61,6 @@ struct Report {
     Json job;                     ///< measure_job()
 };
 
-/// Reports progress.
 using ReportProgress = std::function<void(const std::string&)>;
 
 /// Measures every sonar of a mission with every one of `settings`, on poses sampled along the
@@ -93,9 +89,6 @@ Json measure_job(const Mission& mission, double ms_rays, const ReportOptions& op
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);
 std::string report_markdown(const Report& report);
-
-// Timing of pings for a comparison of settings. A caller lets the settings take turns, so that a
-// machine that slows down slows all of them.
 
 /// 0 for no values.
 double median_of(std::vector<double> values);

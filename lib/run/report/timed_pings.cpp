@@ -15,16 +15,6 @@ namespace sonarsim {
 
 namespace {
 
-/// `count` indices into a trajectory, evenly spaced from its first pose to its last; all of them if
-/// it has fewer.
-std::vector<std::size_t> sample_poses(std::size_t poses, int count) {
-    const std::size_t n = std::min(poses, static_cast<std::size_t>(std::max(count, 1)));
-    std::vector<std::size_t> out(n);
-    for (std::size_t k = 0; k < n; ++k)
-        out[k] = n > 1 ? k * (poses - 1) / (n - 1) : 0;
-    return out;
-}
-
 constexpr std::uint64_t max_images = 64;
 
 /// Renders at most max_images pings of a mission into a new folder.
@@ -77,7 +67,11 @@ std::vector<Eigen::Vector3f> view_rays(const View& view) {
 
 PingSet::PingSet(const Mission& measured, const Assembly& assembly, int count)
     : mission(measured), scene(assembly.scene) {
-    for (const std::size_t pose : sample_poses(assembly.trajectory.size(), count)) {
+    // Evenly spaced from the first pose to the last; all of them if there are fewer.
+    const std::size_t last = assembly.trajectory.size() - 1;
+    const std::size_t n = std::min(last + 1, static_cast<std::size_t>(std::max(count, 1)));
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t pose = n > 1 ? k * last / (n - 1) : 0;
         poses.push_back(assembly.trajectory[pose].T_world_vehicle);
         indices.push_back(static_cast<std::uint32_t>(pose));
     }

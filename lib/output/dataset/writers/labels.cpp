@@ -90,13 +90,6 @@ Ids visible_shares(const PingLabels& labels) {
     return rounded;
 }
 
-/// The image of some terms of the echo, [range bins, beams].
-Floats image_of(const WriterContext& context, const FinishedPing& finished, const Terms& terms) {
-    return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
-                      {context.mission.seed, finished.id.pose}, terms)
-        .intensity;
-}
-
 /// A file of a label: 16 bits in a PNG, or float32 in .npy. One of the three sources is set.
 struct LabelFile {
     Label label;
@@ -136,7 +129,12 @@ PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
                           const FinishedPing& finished) {
     const PingLabels& labels = finished.labels->bins;
     const Sonar& sonar = context.sonar();
-    if (file.terms) return numbers_of(sonar, image_of(context, finished, *file.terms), 0.0F);
+    if (file.terms) {
+        const PingKey key{context.mission.seed, finished.id.pose};
+        Ping image = form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
+                                key, *file.terms);
+        return numbers_of(sonar, std::move(image.intensity), 0.0F);
+    }
     if (file.ids_of)
         return numbers_of<std::uint16_t>(sonar, rows_of_range(file.ids_of(labels), labels), 0);
     return numbers_of(sonar, rows_of_range(labels.*file.floats, labels), std::nanf(""));
