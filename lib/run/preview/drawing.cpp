@@ -1,5 +1,3 @@
-#include "run/preview/drawing.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "run/preview/preview.h"
 
 namespace sonarsim {
 
