@@ -165,7 +165,7 @@ def run_with(*modules):
         python = python_with(", ".join(modules))
         if python in (None, sys.executable):
             sys.exit(77)
-        os.execv(python, [python, "-B", *sys.argv])
+        os.execv(python, [python, *sys.orig_argv[1:]])
 
 
 class Sandbox(unittest.TestCase):

@@ -203,7 +203,3 @@ class Schema(Sandbox):
                 self.assertEqual(self.faults(text), "")
                 self.write("other.yaml", text)
                 self.succeeds("validate", "other.yaml")
-
-
-if __name__ == "__main__":
-    unittest.main()

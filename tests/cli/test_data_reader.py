@@ -301,7 +301,3 @@ class Points(Sandbox):
         for name, words in (("sss", "sidescan sonars have no fan"), ("angles", "there is no frame 'ship'")):
             with self.assertRaisesRegex(ValueError, words):
                 dataset[name].points(dataset[name][0], "ship")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -209,7 +209,3 @@ class Figures(unittest.TestCase):
         self.assertLess(error, float(stated))
         stated = re.search(r"About ([\d,]+) images/s of 512 x 256 bins", words).group(1)
         self.assertGreater(rate, float(stated.replace(",", "")))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -9,6 +9,8 @@ import unittest
 from sandbox import MATERIALS, ROOT, SANITIZED, SONARSIM, Sandbox, box_mesh, digest, gltf, sheet_mesh
 
 VALGRIND, QEMU = shutil.which("valgrind"), shutil.which("qemu-x86_64")
+if SANITIZED or not (VALGRIND or QEMU):
+    sys.exit(77)
 
 SCENE = f"""\
 trajectory:
@@ -94,10 +96,3 @@ class Processor(Sandbox):
         self.write("mission.yaml", SCENE.split("scene:")[0] + "scene: {file: box.gltf, materials: materials.csv}\n" + PAPER)
         for engine in ("strips", "rays", "octree"):
             self.assert_same_bytes(engine)
-
-
-if __name__ == "__main__":
-    if SANITIZED or not (VALGRIND or QEMU):
-        print("skipped: needs valgrind or qemu-x86_64, and a build without sanitizers")
-        sys.exit(77)
-    unittest.main()

@@ -94,7 +94,3 @@ file: "scenes/tank.glb"  # not scenes/generated/wreck.glb
                                     check=False)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
             self.assertIn(f"error: {sentence}", result.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -232,7 +232,3 @@ class Machine(Faults):
                 self.assertIn("out of memory", result.stderr)
         self.assertGreater(failed, 0)
         self.assertTrue(self.is_complete())
-
-
-if __name__ == "__main__":
-    unittest.main()

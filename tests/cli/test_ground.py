@@ -266,7 +266,3 @@ class Seabed(Composed):
             self.write("mission.yaml", BED.replace("    material: Concrete\n", f"    preset: seabeds/{path.name}\n").replace(
                 "materials.csv", f"{ROOT}/scenes/materials.csv\n  material_default: sand"))
             self.succeeds("validate", "mission.yaml", "--set", "sensors.fls.range_max_m=4")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -272,7 +272,3 @@ class Report(Sandbox):
                 (("mission.yaml", *profile, *QUICK), "water.profile")):
             with self.subTest(arguments=arguments):
                 self.assert_refused(self.run_sonarsim("report", *arguments), words)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -195,7 +195,3 @@ class Status(Sandbox):
         self.assert_renders("--seed", "8", "--out", "other")
         self.assert_refused(self.run_sonarsim("status", "out", "other"), "holds variants of another mission")
         self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants.json")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -327,7 +327,3 @@ class Objects(Sandbox):
             behind = mask & (edges[:-1, None] > foot + 0.3)
             self.assertGreater(at_foot.mean(), 0.9)
             self.assertLess(behind.sum(), 0.02 * mask.sum())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -20,7 +20,7 @@ if not PACKAGE:
     sys.exit(77)
 if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that the module is built for
     os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
-    os.execv(PYTHON, [PYTHON, "-B", __file__, *sys.argv[1:]])
+    os.execv(PYTHON, [PYTHON, *sys.orig_argv[1:]])
 sys.path.insert(0, PACKAGE)
 from sandbox import ALL_FILES, Sandbox, path_csv, run_with
 
@@ -303,7 +303,3 @@ class Torch(Package):
         objects = {"ping": 3, "objects": []}
         text = module.tensor_of(types.SimpleNamespace(image=None, raw=None, sensor="fls", labels={"objects": objects}), "objects")
         self.assertEqual(text, '{"ping": 3, "objects": []}')
-
-
-if __name__ == "__main__":
-    unittest.main()

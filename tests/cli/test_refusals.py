@@ -325,7 +325,3 @@ class Mistakes(Sandbox):
         self.assertIn("W12 sensor 'fls': 7 of 10 pings are blind", result.stderr)
         result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--json", "--set", "output.full_scale=1e4")
         self.assertEqual([text[:3] for text in json.loads(result.stdout)["warnings"]], ["W12", "W20"])
-
-
-if __name__ == "__main__":
-    unittest.main()

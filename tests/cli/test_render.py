@@ -212,7 +212,3 @@ class Signals(Sandbox):
         self.assertFalse(self.dataset()["complete"])
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
-
-
-if __name__ == "__main__":
-    unittest.main()

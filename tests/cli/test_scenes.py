@@ -267,7 +267,3 @@ class Others(Sandbox):
                    "range_bins: 64, instrument: {beam: {width_deg: 0.1}}}}\noutput: {folder: out}\n")
         self.assert_renders()
         self.assertTrue(all(map(math.isfinite, numbers_of(self.out / "s/waterfall.npy"))))
-
-
-if __name__ == "__main__":
-    unittest.main()

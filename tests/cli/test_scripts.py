@@ -236,7 +236,3 @@ echo "images ${{SONARSIM_IMAGES:-yes}}" >> {self.folder}/setups
             self.write("mission.yaml", MISSION.replace("  materials:", scene + "  materials:"))
             self.run_program(self.folder / "clone/scripts/render.sh", "mission.yaml", "--quiet", "--overwrite", env=environment)
             self.assertEqual((self.folder / "setups").read_text(), setups)
-
-
-if __name__ == "__main__":
-    unittest.main()

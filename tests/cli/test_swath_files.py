@@ -205,7 +205,3 @@ class Maps(Sandbox):
         self.assertAlmostEqual(*heights, delta=0.1)
         pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())[1]
         self.assertAlmostEqual(max(pings[0]["place"]), south + 30, delta=0.01)
-
-
-if __name__ == "__main__":
-    unittest.main()

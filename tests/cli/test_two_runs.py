@@ -180,7 +180,3 @@ class Disks(Sandbox):
         (self.out / "s/echogram.npy").unlink()
         result = self.on_disk("readonly", "render", "mission.yaml", code=1)
         self.assertIn("Read-only file system", result.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -298,7 +298,3 @@ class Refusals(Sandbox):
                 self.write("mission.yaml", MISSION + rules)
                 self.edit("mission.yaml", old, new)
                 self.refused(*words)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -167,7 +167,3 @@ class Hostile(Sandbox):
         for name in ("1-of-0.txt", "2-of-1.txt", "1-of-4294967296.txt", "1-of-2000000000.txt"):
             self.write(f"out/journal.d/{name}", "")
         self.assertEqual(json.loads(self.succeeds("status", "out", "--json").stdout)["state"], "interrupted")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -176,7 +176,3 @@ class Mutations(tool.ToolTest):
             with self.subTest(file=name, key=key):
                 self.run_tools(source, TOOLS if k % 8 == 0 else ("export", "gallery"))
             (source / name).write_text(sound)
-
-
-if __name__ == "__main__":
-    unittest.main()

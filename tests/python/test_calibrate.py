@@ -370,7 +370,3 @@ class Command(ToolTest):
         head = MISSION.split("sensors:")[0]
         (self.folder / "again.yaml").write_text(head + "sensors: {made: {preset: mine.yaml}}\n")
         self.sonarsim("render", "again.yaml", "--out", f"again-{out}", "-q")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -96,7 +96,3 @@ class Fans(ToolTest):
                               ("both --azimuth-deg and --range-m",)):
             words = self.calibrate(fans, *options)
             self.assert_refused("calibrate", why, *words[1:])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -242,7 +242,3 @@ class CommandTest(tool.ToolTest):
                                   "needs keys", 2), ((*pair, "--pings", "0"), "must be 1 or more", 2),
                                   ((*pair, "--out", self.folder / "file/a"), "Not a directory", 1)):
             self.assert_refused("compare", what, *words, code=code)
-
-
-if __name__ == "__main__":
-    unittest.main()

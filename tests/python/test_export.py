@@ -509,7 +509,3 @@ class Export(tool.ToolTest):
         self.dest.mkdir()
         (self.dest / "mine.txt").write_text("")
         self.refused("holds something", *coco)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -209,7 +209,3 @@ class Pings(tool.ToolTest):
         path.write_text(json.dumps(description))
         self.assert_refused("export", r"set output.labels: \[elevation, instance, class\]", self.folder / "less",
                             self.folder / "dest", "--format", "points", "--sensor", "fls")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -209,7 +209,3 @@ class Files(Gallery):
         index.write_text("<p>mine</p>")
         self.refused("index.html: is not of sonarsim's making")
         self.assertEqual(index.read_text(), "<p>mine</p>")
-
-
-if __name__ == "__main__":
-    unittest.main()

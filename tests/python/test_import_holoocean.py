@@ -112,7 +112,3 @@ class HoloOcean(ToolTest):
                      '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "configuration": [1]}]}]}', "\0", "NaN",
                      '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "location": [NaN, 0, true]}]}]}'):
             self.run_import(text, code=2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -75,7 +75,3 @@ class PresetGreys(unittest.TestCase):
         values = (np.load(files[0]) if files[0].exists() else
                   np.stack([np.asarray(Image.open(file)) for file in sorted((sensor / "raw").glob("*.png"))]))
         return values / (255 if values.dtype == np.uint8 else 65535)
-
-
-if __name__ == "__main__":
-    unittest.main()

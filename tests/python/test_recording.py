@@ -263,7 +263,3 @@ class RecordingTest(tool.ToolTest):
         np.testing.assert_allclose(Law("gamma", exponent=0.5, offset=0.1).powers([0, 0.4 * 255, 0.9 * 255]), [0, 1 / 16, 1])
         np.testing.assert_allclose(Law(knee=0.2).powers([0, 0.1 * 255, 63.359735]), [0, 0.01, 1 / 16], atol=1e-6)
         np.testing.assert_allclose(Law("decibel", range_db=60).powers([0, 127.5, 255]), [1e-6, 1e-3, 1], rtol=1e-5)
-
-
-if __name__ == "__main__":
-    unittest.main()
