@@ -8,10 +8,11 @@ import unittest
 
 from sandbox import ROOT, Sandbox, box_gltf, gltf, run_with, sheet_mesh
 
-run_with("numpy", "PIL")
+run_with("numpy", "PIL", "scipy")
 sys.path.append(str(ROOT / "tests/python"))
 import numpy as np
 from PIL import Image
+from scipy import ndimage, spatial
 from tool import mask_of
 
 MISSION = """\
@@ -124,7 +125,7 @@ def silhouettes(bodies):
         bin_, beam = int((r[k] - 0.8) / 0.01), int(across[k])
         if abs(np.degrees(np.arcsin(at[k, 2] / r[k]))) < 20 and 0 <= bin_ < BINS and 0 <= beam < BEAMS:
             seen[list(bodies)[owner[k]]][bin_, beam] = True
-    return {name: convex(filled(mask)) for name, mask in seen.items()}
+    return {name: convex(ndimage.binary_fill_holes(mask)) for name, mask in seen.items()}
 
 
 def convex(mask):
@@ -132,42 +133,9 @@ def convex(mask):
     bins, beams = np.indices(mask.shape)
     angle, r = np.radians((beams + 0.5) / BEAMS * 60 - 30), 0.8 + (bins + 0.5) * 0.01
     plane = np.stack([r * np.sin(angle), r * np.cos(angle)], -1)
-    corners = []
-    for points in (sorted(map(tuple, plane[mask])), sorted(map(tuple, plane[mask]), reverse=True)):
-        chain = []
-        for point in points:
-            while len(chain) > 1 and np.cross(np.subtract(chain[-1], chain[-2]), np.subtract(point, chain[-1])) <= 0:
-                chain.pop()
-            chain.append(point)
-        corners += chain[:-1]
-    ends = zip(np.array(corners), np.roll(corners, -1, 0))
-    hull = np.all([np.cross(end - begin, plane - begin) > -1e-9 for begin, end in ends], 0)
+    sides = spatial.ConvexHull(plane[mask]).equations       # outward normal and offset of each
+    hull = (plane @ sides[:, :2].T + sides[:, 2] < 1e-9).all(axis=-1)
     return hull if mask.sum() >= 0.7 * hull.sum() else mask
-
-
-def label(mask, corners):
-    """The number of the piece of each True, from 1 on; pieces are joined by sides, or by corners, too."""
-    marks, count = np.zeros(mask.shape, int), 0
-    for start in zip(*np.nonzero(mask)):
-        if marks[start]:
-            continue
-        count, todo = count + 1, [start]
-        while todo:
-            y, x = todo.pop()
-            if not (0 <= y < mask.shape[0] and 0 <= x < mask.shape[1]) or not mask[y, x] or marks[y, x]:
-                continue
-            marks[y, x] = count
-            todo += [(y + dy, x + dx) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if corners or not dy or not dx]
-    return marks
-
-
-def pieces(mask, corners):
-    return label(mask, corners).max()
-
-
-def filled(mask):
-    outside = label(~np.pad(mask, 1), False)
-    return (outside != outside[0, 0])[1:-1, 1:-1]
 
 
 class Objects(Sandbox):
@@ -250,9 +218,8 @@ class Objects(Sandbox):
             mask, body = mask_of(one["mask"], BEAMS, BINS), expected[name]
             overlap = (mask & body).sum() / (mask | body).sum()
             self.assertGreater(overlap, 0.85, name)
-            padded = np.pad(mask, 1)
-            self.assertEqual(pieces(padded, True), 1, name)         # one piece,
-            self.assertEqual(pieces(~padded, False), 1, name)       # without holes
+            self.assertEqual(ndimage.label(mask, np.ones((3, 3)))[1], 1, name)  # one piece,
+            self.assertEqual(ndimage.label(~np.pad(mask, 1))[1], 1, name)       # without holes
             self.assert_mask(one["mask"], mask, one["box_bins"], one["area_bins"], "beam", "range")
 
     def test_shadows_belong_to_masks_by_class(self):

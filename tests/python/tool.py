@@ -13,6 +13,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "apps/python"
 sys.path.insert(0, str(PACKAGE))
+from sonarsim.export import runs    # noqa: E402
 
 
 def run(name, *words, setup="", anew=False):
@@ -73,22 +74,12 @@ def disc(width, height, x, y, radius):
 
 
 def counts_of(mask):
-    """COCO's compressed text of a mask: lengths of runs, column by column."""
-    flat = np.concatenate([[False], mask.T.ravel()])
-    edges = np.flatnonzero(flat[1:] != flat[:-1])
-    runs = np.diff(np.concatenate([[0], edges, [mask.size]])).tolist()
-    text = ""
-    for k, length in enumerate(runs):
-        value, more = length - (runs[k - 2] if k > 2 else 0), True
-        while more:
-            low, value = value & 31, value >> 5
-            more = value != (-1 if low & 16 else 0)
-            text += chr(48 + (low | 32 * more))
-    return text
+    """COCO's compressed text of a mask [row, column]."""
+    return runs.counts_of(np.flatnonzero(mask.T), *mask.shape[::-1])
 
 
 def mask_of(counts, width, height):
-    """The mask [row, column] of such a text."""
+    """The mask of such a text, by a reader of its own."""
     runs, at = [], 0
     while at < len(counts):
         value, shift, more = 0, 0, True
