@@ -16,7 +16,7 @@ import time
 import unittest
 import zlib
 
-SONARSIM = os.environ["SONARSIM"]
+SONARSIM = os.environ.get("SONARSIM", "")
 SANITIZED = os.environ.get("SANITIZED") == "1"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A dataset waits for its disk at every checkpoint, and hundreds are made here: where there is one, a

@@ -154,11 +154,8 @@ class Schema(Sandbox):
         class Loader(yaml.SafeLoader):
             """Numbers as YAML 1.2 has them: 3e6 is one, which PyYAML takes for text."""
 
-        number = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$")
+        number = re.compile(r"[-+]?(\.[0-9]+|[0-9]+\.?[0-9]*)[eE][-+]?[0-9]+$")
         Loader.add_implicit_resolver("tag:yaml.org,2002:float", number, list("-+.0123456789"))
-        # Whole numbers are looked for before the others.
-        for resolvers in Loader.yaml_implicit_resolvers.values():
-            resolvers.sort(key=lambda one: not one[0].endswith(":int"))
         cls.loader, cls.schema = Loader, json.loads(lines_of("keys", "--json"))
 
     def faults(self, text):

@@ -117,11 +117,7 @@ class Reader(Sandbox):
         self.assertIn("1: 'W\u00e4nde'", result.stdout)
 
     def test_variants(self):
-        for k in range(2):
-            shutil.copytree(self.out, self.folder / f"many/variant_{k:04}")
-        names = ["variant_0000", "variant_0001"]
-        self.write("many/variants.json", json.dumps({"variants": [{"folder": name} for name in names]}))
-        self.assertEqual([one.folder.name for one in sonarsim_data.open_datasets(self.folder / "many")], names)
+        """Those that are there: test_python.py."""
         self.write("many/variants.json", '{"variants": [{"folder": "../many/variant_0000"}]}')
         with self.assertRaisesRegex(ValueError, "is not a name that sonarsim gives"):
             sonarsim_data.open_datasets(self.folder / "many")

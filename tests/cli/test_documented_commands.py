@@ -33,27 +33,25 @@ PYTHON = python_with("matplotlib")
 PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE", "")
 MODULE_PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
 
-# What is run in place of a command that is too large or has place-holders.
+# What makes a command smaller, and what is run in place of one that has place-holders.
 TINY = "--set sensors.fls.range_bins=64 --set sensors.fls.azimuth_bins=64"
 FEW = f"--set trajectory.rate_hz=1 {TINY}"
-INSTEAD = {
-    "./scripts/render.sh configs/tank_imaging.yaml": f"./scripts/render.sh configs/tank_imaging.yaml {FEW}",
-    "./scripts/render.sh configs/detection.yaml":
-        f"./scripts/render.sh configs/detection.yaml --set variants=5 --set trajectory.rate_hz=0.5 {TINY}",
+WITH = {
+    "./scripts/render.sh configs/tank_imaging.yaml": FEW,
+    "./scripts/render.sh configs/detection.yaml": f"--set variants=5 --set trajectory.rate_hz=0.5 {TINY}",
+    "build/sonarsim validate anchors.yaml": f"--set variants=1 {FEW}",
+    "build/sonarsim preview anchors.yaml": FEW,
+    "build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png": FEW,
+    "build/sonarsim render anchors.yaml": f"--set variants=5 {FEW}",
+    'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep sensors.fls.range_max_m="6 10" seed="1 2"':
+        "trajectory.rate_hz=1 sensors.fls.range_bins=64",
+}
+INSTEAD = {command: f"{command} {more}" for command, more in WITH.items()} | {
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
         f"build/sonarsim validate hull.yaml {TINY} && build/sonarsim render hull.yaml {TINY}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
         f"sonarsim render share/sonarsim/configs/tank_imaging.yaml {FEW} --out out/installed",
-    "build/sonarsim validate anchors.yaml": f"build/sonarsim validate anchors.yaml --set variants=1 {FEW}",
-    "build/sonarsim preview anchors.yaml": f"build/sonarsim preview anchors.yaml {FEW}",
-    "build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png":
-        f"build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png {FEW}",
-    "build/sonarsim render anchors.yaml": f"build/sonarsim render anchors.yaml --set variants=5 {FEW}",
     "sonarsim status OUT": "sonarsim status part1",
-    'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep '
-    'sensors.fls.range_max_m="6 10" seed="1 2"':
-        'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep '
-        'sensors.fls.range_max_m="6 10" seed="1 2" trajectory.rate_hz=1 sensors.fls.range_bins=64',
 }
 
 # What a page takes for granted.

@@ -4,9 +4,10 @@
 """
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
+
+from test_install import run
 
 SYSTEM = ("linux-vdso", "/lib64/ld-linux", "libc.so", "libm.so", "libstdc++", "libgcc_s")
 USE = """
@@ -14,12 +15,6 @@ import sonarsim
 mission = sonarsim.open("mission.yaml", set={"trajectory.rate_hz": 0.2})
 print(sonarsim.__version__, mission.ping(0, sensor="fls").image.shape)
 """
-
-
-def run(*command, **options):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
-    assert result.returncode == 0, f"{command}\n{result.stdout}{result.stderr}"
-    return result.stdout
 
 
 def main(root):

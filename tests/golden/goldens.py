@@ -11,7 +11,6 @@ commit why its lines changed. --under runs the program by a command, such as an 
 thread.
 """
 import argparse
-import base64
 import concurrent.futures
 import contextlib
 import hashlib
@@ -29,6 +28,9 @@ from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.append(str(ROOT / "tests/cli"))
+from sandbox import box_mesh, gltf
+
 GOLDENS = HERE / "goldens.txt"
 SHARDED, PREVIEWED = "records", ("imaging_strips", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
@@ -42,21 +44,6 @@ def heights():
     return np.rint(3000 + 12 * column - 5 * row + 150 * np.sin(0.31 * column + 0.17 * row)).astype(np.uint16)
 
 
-def crate():
-    """A cube of 0.8 m as glTF; the corners are counted by their signs, x first."""
-    corners = np.float32(0.4) * (2 * np.array(list(np.ndindex(2, 2, 2)), "<f4")[:, ::-1] - 1)
-    faces = np.array([[a, b, c, a, c, d] for a, b, c, d in ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6),
-                                                            (0, 2, 6, 4), (1, 5, 7, 3))], "<u2")
-    data = corners.tobytes() + faces.tobytes()
-    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
-    return {"asset": {"version": "2.0"}, "nodes": [{"name": "crate", "mesh": 0}], "materials": [{"name": "steel"}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
-                          {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}],
-            "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 96}, {"buffer": 0, "byteOffset": 96, "byteLength": 72}],
-            "buffers": [{"byteLength": len(data), "uri": uri}]}
-
-
 def make_scenes(folder):
     """Missions, instruments and scenes as the missions name them."""
     shutil.copytree(HERE / "missions", folder / "missions")
@@ -64,7 +51,7 @@ def make_scenes(folder):
     (folder / "scenes").mkdir()
     for file in (ROOT / "scenes/tank.glb", ROOT / "scenes/materials.csv"):
         shutil.copy(file, folder / "scenes")
-    (folder / "scenes/crate.gltf").write_text(json.dumps(crate()))
+    (folder / "scenes/crate.gltf").write_text(gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.4, 0.4, 0.4))], ("steel",)))
     Image.fromarray(heights()).save(folder / "scenes/heights.png")
 
 

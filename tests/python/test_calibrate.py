@@ -10,7 +10,7 @@ import unittest.mock
 import numpy as np
 from scipy import special
 from tool import ROOT, ToolTest
-from sonarsim.calibrate import command, correlations, image, judge_pass, law, levels, noise, preset, scene  # noqa: E402
+from sonarsim.calibrate import command, correlations, image, judge, law, levels, noise, preset, scene  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, delivered  # noqa: E402
 from sonarsim.recording import Law, Recording  # noqa: E402
@@ -231,12 +231,12 @@ class Fits(unittest.TestCase):
 
     def test_fits_that_are_not_written(self):
         def judged(agree, white=0.0, figures=40):
-            return judge_pass.Judged([[()] * figures], (agree, agree), white)
-        judge_pass.check_judged(judged(17), judged(12), [])
+            return judge.Judged([[()] * figures], (agree, agree), white)
+        judge.check_judged(judged(17), judged(12), [])
         for fit, why in ((judged(17, 0.06), "6% of a pass .* is white"), (judged(11), "11 of 40 figures .* and 12 with the start"),
                          (judged(12), "12 of 40")):
             with self.assertRaisesRegex(CalibrationError, why + ".* lacks rows that show noise alone$"):
-                judge_pass.check_judged(fit, judged(12), ["rows that show noise alone"])
+                judge.check_judged(fit, judged(12), ["rows that show noise alone"])
 
     def test_gain_and_noise_together(self):
         """Noise and gain laid over echoes are found from the levels of pings, whatever the start."""

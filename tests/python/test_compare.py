@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import tool
-from sonarsim.compare import coverage, points, report, shadows, speckle  # noqa: E402
+from sonarsim.compare import coverage, measure, report, speckle  # noqa: E402
 from sonarsim.compare.bootstrap import exchange_p  # noqa: E402
 from sonarsim.compare.comparison import compare_recordings  # noqa: E402
 from sonarsim.compare.figure import Figure  # noqa: E402
@@ -59,23 +59,23 @@ class FiguresTest(unittest.TestCase):
         # exp(-x^2 / (2 s^2)) is half over a width of 2.3548 s; linear interpolation between bins errs by less than 4 %.
         y, x = np.meshgrid((np.arange(60) - 30) / 1.2, (np.arange(64) - 32) / 2.0, indexing="ij")
         image = 1e-6 + np.exp(-0.5 * (x * x + y * y))
-        self.assertEqual(points.points_of(image, 5, 55), [(30, 32)])
-        self.assertAlmostEqual(points.width_of(image[30], 32), 4.71, delta=0.2)
-        self.assertAlmostEqual(points.width_of(image[:, 32], 30), 2.826, delta=0.12)
-        self.assertEqual(points.points_of(image, 31, 55), [])
+        self.assertEqual(measure.points_of(image, 5, 55), [(30, 32)])
+        self.assertAlmostEqual(measure.width_of(image[30], 32), 4.71, delta=0.2)
+        self.assertAlmostEqual(measure.width_of(image[:, 32], 30), 2.826, delta=0.12)
+        self.assertEqual(measure.points_of(image, 31, 55), [])
 
     def test_shadows(self):
         # A shadow 20 dB deep over 30 ranges that rises linearly over 12: from a quarter to three quarters are 6.
         mean = np.ones((200, 64))
         mean[80:, 20:36] = np.clip(0.01 + 0.99 * (np.arange(80, 200) - 110) / 12, 0.01, 1.0)[:, None]
         image = mean * np.random.default_rng(3).standard_exponential(mean.shape)
-        found = [one for one in shadows.shadows_of(image[:190], 10) if 22 <= one[0] < 34]
+        found = [one for one in measure.shadows_of(image[:190], 10) if 22 <= one[0] < 34]
         self.assertGreaterEqual(len(found), 10)
         _, first, _, depth, edge = np.median(np.array(found), axis=0)
         self.assertLess(abs(first - 81), 4)
         self.assertLess(abs(depth + 20), 1.5)
         self.assertLess(abs(edge - 6), 3)
-        self.assertEqual(shadows.shadows_of(np.ones((100, 64)), 10), [])
+        self.assertEqual(measure.shadows_of(np.ones((100, 64)), 10), [])
 
 
 class ComparisonTest(unittest.TestCase):

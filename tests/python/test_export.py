@@ -26,6 +26,19 @@ def box_of(mask):
     return [left, top, int(columns.max()) + 1 - left, int(rows.max()) + 1 - top]
 
 
+def rectangle(shape, top, bottom, left, right):
+    mask = np.zeros(shape, bool)
+    mask[top:bottom, left:right] = True
+    return mask
+
+
+def difference(grey, mask, is_strip=False):
+    """By how many greys a mask stands out of a picture."""
+    pixels, (left, top, width, height) = np.flatnonzero(mask.T), box_of(mask)
+    greys = Greys(grey.clip(0, 255).astype(np.uint8), [pixels], [], is_strip)
+    return greys.difference(pixels, (left, left + width, top, top + height), None)
+
+
 def fan_objects(ping):
     """(id, class, mask, visible share, contrast) of the objects of a fan; the mine moves."""
     return [(1, "bottom", np.ones((HEIGHT, WIDTH), bool), None, None),
@@ -138,18 +151,11 @@ class Export(tool.ToolTest):
     def test_a_slope_of_the_grey_hides_nothing(self):
         """On a ramp of 160 greys and noise of 6, a patch 30 brighter is visible, one 3 brighter is not, at any slope."""
         noise = 110 + np.random.default_rng(3).normal(0, 6, (120, 120))
-        ramp = np.linspace(-80, 80, 120)
-        box = (40, 80, 40, 80)
-        mask = np.add.outer(np.arange(40, 80) * 120, np.arange(40, 80)).ravel()
+        ramp, mask = np.linspace(-80, 80, 120), rectangle((120, 120), 40, 80, 40, 80)
         for slope in (np.zeros((120, 120)), ramp[:, None] + 0 * ramp, ramp + 0 * ramp[:, None], 0.5 * np.add.outer(ramp, -ramp)):
-            found = []
-            for brighter in (30, 3):
-                grey = noise + slope
-                grey[40:80, 40:80] += brighter
-                greys = Greys(grey.clip(1, 255).astype(np.uint8), [mask], [])
-                found.append(greys.difference(mask, box, None))
-            self.assertGreater(found[0], 12)
-            self.assertLess(found[1], 12)
+            for brighter, is_seen in ((30, True), (3, False)):
+                found = difference((noise + slope + brighter * mask).clip(1), mask)
+                self.assertEqual(found >= 12, is_seen, (brighter, found))
 
     def test_water_hides_what_is_as_black(self):
         """Beside the bed's edge, straight or askew, a mask that is water is no dark thing, and none at the end of a slope. A
@@ -159,33 +165,27 @@ class Export(tool.ToolTest):
         for tilt, water in ((0, 0), (0, 3), (0.6, 0), (-0.6, 2)):
             inland = columns - 60 - tilt * (rows - 40)
             for bed in (30 + 0 * inland, 8 + inland.clip(0, 30)):
-                grey = np.where(inland < 0, water * (1 + 0.1 * noise), bed + noise).round().clip(0, 255).astype(np.uint8)
+                grey = np.where(inland < 0, water * (1 + 0.1 * noise), bed + noise).round().clip(0)
                 for x, brighter, is_seen in ((53, 0, False), (53, 40, True), (75, 0, True)):
                     mask = disc(120, 80, x, 40, 5)
-                    shown = np.where(mask, brighter + grey[40, 5], grey).astype(np.uint8)
-                    greys = Greys(shown, [np.flatnonzero(mask.T)], [], True)
-                    found = greys.difference(np.flatnonzero(mask.T), (x - 5, x + 6, 35, 46), None)
+                    found = difference(np.where(mask, brighter + grey[40, 5], grey), mask, True)
                     self.assertEqual(found >= 12, is_seen, (tilt, water, bed.max(), x, brighter, found))
 
     def test_a_thin_bright_shape_beside_water(self):
         """Water in much of the surroundings is no grain: a bar 60 brighter than the bed is visible, the bed is not."""
-        bed = np.random.default_rng(5).normal(100, 20, (90, 90)).clip(1, 255)
+        bed, mask = np.random.default_rng(5).normal(100, 20, (90, 90)).clip(1, 255), rectangle((90, 90), 43, 49, 20, 70)
         bed[50:] = 10
-        mask = np.zeros((90, 90), bool)
-        mask[43:49, 20:70] = True
         for brighter, is_seen in ((60, True), (0, False)):
-            greys = Greys((bed + brighter * mask).clip(0, 255).astype(np.uint8), [np.flatnonzero(mask.T)], [])
-            self.assertEqual(greys.difference(np.flatnonzero(mask.T), (20, 70, 43, 49), None) >= 12, is_seen)
+            self.assertEqual(difference(bed + brighter * mask, mask) >= 12, is_seen)
 
     def test_few_grains_do_not_stand_out_by_chance(self):
         """Speckle of 5 beams to a grain: a mask of 7 x 8 pixels stands out in 1.7 of 100 pictures, 13 without `chance`."""
         drawn, found = np.random.default_rng(1), 0
-        mask = np.add.outer(np.arange(26, 34) * 64, np.arange(28, 35)).ravel()
+        mask = rectangle((64, 64), 28, 35, 26, 34)
         for _ in range(100):
             wide = drawn.normal(size=(2, 64, 68))
             real, imaginary = sum(wide[:, :, k:k + 64] for k in range(5)) / 5 ** 0.5
-            greys = Greys((55 * np.hypot(real, imaginary)).clip(1, 255).astype(np.uint8), [mask], [])
-            found += greys.difference(mask, (26, 34, 28, 35), None) >= 12
+            found += difference((55 * np.hypot(real, imaginary)).clip(1), mask) >= 12
         self.assertLessEqual(found, 5)
 
     def test_objects_that_no_eye_sees(self):
@@ -239,8 +239,7 @@ class Export(tool.ToolTest):
         """A part of a mask that shows the bed alone is left out of it."""
         path = self.out / "fls/objects/000001.json"
         listed = json.loads(path.read_text())
-        disc, noise = fan_objects(1)[1][2], np.zeros((HEIGHT, WIDTH), bool)
-        noise[20:27, 4:11] = True
+        disc, noise = fan_objects(1)[1][2], rectangle((HEIGHT, WIDTH), 20, 27, 4, 11)
         listed["objects"][1]["fan"]["mask"] = counts_of(disc | noise)
         path.write_text(json.dumps(listed))
         for words, expected in (((), disc), (("--min-grey", "0"), disc | noise)):

@@ -55,12 +55,12 @@ class Gallery(tool.ToolTest):
         return screen[at[..., 1], at[..., 0]]
 
 
-@unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
+@unittest.skipUnless(browser.CHROMIUM and browser.CHROMEDRIVER, "Debian's chromium and chromium-driver are not here")
 class InBrowser(Gallery):
     def test_masks_lie_where_the_objects_are(self):
         """In a fan, in bins, in a waterfall below its axis and in a scan."""
         write_dataset(self.out)
-        with browser.Browser() as window:
+        with browser.opened() as window:
             self.open(window)
             window.press("b")  # without boxes
             for name, keys in (("fan", ""), ("bins", "v"), ("sss", "down"), ("head", "down")):
@@ -83,7 +83,7 @@ class InBrowser(Gallery):
     def test_classes_objects_and_colours(self):
         write_dataset(self.out)
         seen = "return $('seen').textContent"
-        with browser.Browser() as window:
+        with browser.opened() as window:
             self.open(window)
             self.assertIn("seed 9007199254740993", window.run("return $('about').textContent"))
             # Background is off at first; a box of the legend switches a class.
@@ -126,7 +126,7 @@ class InBrowser(Gallery):
         (self.out / "one/dataset.json").write_text(json.dumps(description))
         (self.out / "variants.json").write_text(json.dumps({"variants": [
             {"folder": "one", "drawn": {HOSTILE: HOSTILE, "__proto__": 1}}, {"folder": "two"}]}))
-        with browser.Browser() as window:
+        with browser.opened() as window:
             self.open(window)
             window.run("select(1)")
             for element in ("legend", "objects", "which", "facts", "about"):
@@ -136,7 +136,7 @@ class InBrowser(Gallery):
             for attack in ("document.body.append(element('script', \"document.title='hit'\"))",
                            "new Image().src = 'http://127.0.0.1:9/x.png';"):
                 window.run(attack)
-                self.assertIn("Content Security Policy", window.wait_for_complaint())
+                self.assertIn("Content Security Policy", "\n".join(browser.until(window.complaints, "a warning")))
             self.assertEqual(window.run("return document.title"), "out - sonarsim")
 
 

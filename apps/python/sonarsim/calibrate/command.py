@@ -10,11 +10,9 @@ import numpy as np
 
 from ..command import replaced, run
 from ..recording import open_recording
-from .fan_fit import LAWS, RING_ERROR, RING_ERROR_USUAL, fit_fans, vary_block
-from .fans import read_fans
+from .fan_fit import LAWS, RING_ERROR, RING_ERROR_USUAL, fit_fans, read_fans, vary_block
 from .image import fit_image, joined
-from .judge import figures_of
-from .judge_pass import MAX_WHITE, check_judged, is_worse, judge
+from .judge import MAX_WHITE, check_judged, figures_of, is_worse, judge
 from .law import full_value_of
 from .levels import fit_levels
 from .preset import new_keys, read_start, set_levels, set_shape, with_key

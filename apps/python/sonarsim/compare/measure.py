@@ -3,13 +3,12 @@ import dataclasses
 import functools
 
 import numpy as np
+from scipy import ndimage
 
 from . import speckle
 from .behind import behind_figures
-from .figure import Figure, decibels
+from .figure import MIN_POWER, Figure, decibels
 from .images import Grid
-from .points import point_figures
-from .shadows import shadow_figures
 from .texture import block_figures, off_figures
 
 RANGE_BANDS, BEARING_BANDS = 8, 4
@@ -18,6 +17,11 @@ MAX_CLIPPED = 0.03
 LAGS = (1, 2, 4)
 LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
 PERCENTILES = (5, 25, 75, 95, 99)
+REACH = (9, 25)         # a point is the largest within 4 ranges and 12 beams
+STANDS_OUT = 150.0      # 22 dB over the median of the 7 ranges about it
+LOBES = np.array([-8, -7, -6, -5, 5, 6, 7, 8])
+SHADOW_WINDOW, MIN_SHADOW = 5, 5
+DARK = 0.25     # 6 dB below; speckle alone makes such a run in fewer than one of 10,000 bins
 
 
 def measure_images(images, size, zones, bands, sizes_m):
@@ -132,3 +136,93 @@ def percentile_figures(images, grid):
     places, bins = np.divmod(np.flatnonzero(counts), LEVEL_BINS)
     return [Figure.of(f"{percent} % of the levels over their median, dB", "quantile", "decibel", places, 0,
                       LOWEST_DB + BIN_DB * bins, counts[counts > 0], percent / 100.0, 0.5) for percent in PERCENTILES]
+
+
+def point_figures(images, grid, zones):
+    """Widths and side lobes of the echoes of points that stand alone in the water."""
+    cells = []
+    for ping, image in enumerate(images.powers):
+        for i, j in points_of(image, *zones.nearest):
+            lobes = image[i, np.clip(j + LOBES, 0, image.shape[1] - 1)].mean() / image[i, j]
+            cells.append((grid.place_of(i, j), ping, width_of(image[i], j), width_of(image[:, j], i),
+                          max(-120.0, float(decibels(lobes)))))
+    places, pings, beams, ranges, lobes = np.array(cells).T if cells else np.zeros((5, 0))
+    return [Figure.of("points: width, beams", "quantile", "tenth", places, pings, beams),
+            Figure.of("points: width, ranges", "quantile", "tenth", places, pings, ranges),
+            Figure.of("points: side lobes, dB", "quantile", "decibel", places, pings, lobes)]
+
+
+def points_of(image, begin, end):
+    """The (range, beam) of points, at least 20 beams, or an eighth of the fan, away from its edges."""
+    ranges, beams = image.shape
+    margin = min(20, beams // 8)
+    is_point = (image > 0.0) & (image >= ndimage.maximum_filter(image, REACH, mode="nearest"))
+    is_point[:max(begin, 1)] = is_point[min(end, ranges - 1):] = False
+    is_point[:, :margin] = is_point[:, beams - margin:] = False
+    found = []
+    for i in np.flatnonzero(is_point.any(axis=1)) if beams >= REACH[1] - 1 else ():
+        rows = image[max(0, i - 3):i + 4].ravel()
+        median = np.partition(rows, rows.size // 2)[rows.size // 2]
+        found += [(i, j) for j in np.flatnonzero(is_point[i] & (image[i] >= STANDS_OUT * median))]
+    return found
+
+
+def width_of(line, peak):
+    """The width at half of the power, between bins linearly."""
+    half, width = 0.5 * line[peak], 0.0
+    for side in (line[peak::-1].astype(float), line[peak:].astype(float)):
+        k = int(np.argmax(side <= half)) or len(side)
+        width += k - 1 + ((side[k - 1] - half) / (side[k - 1] - side[k]) if k < len(side) else 0.0)
+    return width
+
+
+def shadow_figures(images, grid, zones):
+    """Shadows of a side-scan: runs of ranges that are dark against the median of their range over the pings of an image."""
+    begin, (height, width) = zones.bottom[0], grid.size
+    rows = np.arange(begin, images.shape[0] - height + 1, height)
+    tested = np.unique(grid.place_of(rows[:, None], width * np.arange(max(1, grid.columns))))
+    shadows, shares = [], []
+    for ping, image in enumerate(images.powers):
+        dark = np.zeros(grid.place_of(*images.shape) + 1)
+        for column, first, end, depth, edge in shadows_of(image.astype(float), begin):
+            shadows.append((grid.place_of(first, column), ping, depth, edge))
+            np.add.at(dark, grid.place_of(np.arange(first, end), column), 1.0 / (height * width))
+        shares += [(place, ping, dark[place]) for place in tested]
+    places, pings, depths, edges = np.array(shadows).T if shadows else np.zeros((4, 0))
+    return [Figure.of("shadows: share of the bottom", "mean", "share", *np.array(shares).reshape(-1, 3).T),
+            Figure.of("shadows: depth, dB", "quantile", "decibel", places, pings, depths),
+            Figure.of("shadows: far edge, ranges", "quantile", "tenth", places, pings, edges)]
+
+
+def shadows_of(image, begin):
+    """(column, first range, end, depth in dB, width of the far edge) of the shadows from range `begin` on."""
+    # Windows end at the image's borders.
+    inside, ones = ([ndimage.uniform_filter(one, size, mode="constant")[begin:] for size in ((SHADOW_WINDOW, SHADOW_WINDOW), (1, SHADOW_WINDOW))]
+                    for one in (image, np.ones_like(image)))
+    smooth, across = inside[0] / ones[0], inside[1] / ones[1]
+    middle = image.shape[1] // 2
+    median = np.partition(smooth, middle, axis=1)[:, middle]
+    is_dark = np.zeros((len(smooth) + 2, image.shape[1]), int)
+    is_dark[1:-1] = smooth < DARK * median[:, None]
+    found = []
+    for column, steps in enumerate(np.diff(is_dark, axis=0).T):
+        found += [(column, begin + first, begin + end, *measured_shadow(across[:, column], median, first, end))
+                  for first, end in zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1))
+                  if end - first >= MIN_SHADOW]
+    return found
+
+
+def measured_shadow(line, median, first, end):
+    """The level of a shadow's middle over the median, and the ranges from a quarter to three quarters of its far rise."""
+    trim = min(SHADOW_WINDOW // 2, (end - first - 1) // 2)
+    inside, around = (values[first + trim:end - trim].mean() for values in (line, median))
+    depth = 10.0 * np.log10(max(inside, MIN_POWER) / max(around, MIN_POWER))
+    beyond = line[(first + end) // 2:]
+    quarter, most = (reached_at(beyond, inside + share * (around - inside)) for share in (0.25, 0.75))
+    return depth, most - quarter
+
+
+def reached_at(line, power):
+    """The place, interpolated linearly, at which a line first reaches a power behind its first value; NaN if nowhere."""
+    k = int(np.argmax(np.append(False, line[1:] >= power)))
+    return k - (line[k] - power) / max(line[k] - line[k - 1], 1e-30) if k else np.nan

@@ -4,6 +4,7 @@ import concurrent.futures
 import itertools
 import multiprocessing
 import os
+import pathlib
 import signal
 import sys
 from concurrent.futures.process import BrokenProcessPool
@@ -12,12 +13,15 @@ from ..command import need, run
 
 need("export", "numpy", "PIL")
 
-from . import formats, pings, split
+from ..data import DataError
+from . import clouds, formats, holoocean, robot, split
 from .pieces import frames_of, part_of, prepare
-from .source import Source
+from .source import Source, named_datasets, require_known
 from .statistics import Statistics
 
 BATCH = 512     # pictures whose pieces are in memory at a time
+# Formats of pings, which need no objects: the writer of each, and its options beside --sensor.
+OF_PINGS = {"points": (clouds.write, {"whole"}), "holoocean": (holoocean.write, {"clean", "mesh"}), "mcap": (robot.write, set())}
 
 
 class Parser(argparse.ArgumentParser):
@@ -43,7 +47,7 @@ def parse(arguments):
     parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes what trainers and robots read.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
-    add("--format", required=True, choices=[*formats.KINDS, *pings.KINDS], help="the layout")
+    add("--format", required=True, choices=[*formats.KINDS, *OF_PINGS], help="the layout")
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--oriented", action="store_true", help="of yolo: the least rectangle around the mask instead of the box")
@@ -81,8 +85,8 @@ def parse(arguments):
             not 1e-4 <= options.pixel_m <= 100 or options.tile):
         parser.error("--format crops needs --pixel-m, the side of a pixel from 0.0001 to 100 m, and no --tile; "
                      "other formats take no --pixel-m")
-    if options.format in pings.KINDS:
-        allowed = {"format", "folders", "dest", "sensor", *pings.KINDS[options.format][1]}
+    if options.format in OF_PINGS:
+        allowed = {"format", "folders", "dest", "sensor", *OF_PINGS[options.format][1]}
         for key, value in vars(options).items():
             if key not in allowed and value != parser.get_default(key):
                 parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
@@ -115,9 +119,26 @@ def prepare_all(pictures, numbers, options):
             pool.shutdown(cancel_futures=True)
 
 
+def export_pings(options):
+    """Writes a format for the fans of each dataset."""
+    found = [one for folder in options.folders for one in named_datasets(pathlib.Path(folder), len(options.folders) > 1)]
+    require_known(options.sensor, {name: 0 for _, one in found for name in one.sensors}, "--sensor")
+    lines = [f"{options.dest}: {options.format}"]
+    with formats.destination(options.dest, options.folders) as folder:
+        for name, dataset in found:
+            sensors = [one for one in dataset.sensors.values() if one.kind in ("imaging", "profiling") and len(one)
+                       and (not options.sensor or one.name in options.sensor)]
+            if not sensors:
+                raise DataError(f"{dataset.folder}: has no ping of an imaging or profiling sonar to export")
+            (folder / name).mkdir(exist_ok=True)
+            written = OF_PINGS[options.format][0](folder / name, dataset, sensors, options)
+            lines += [f"{name}{name and ': '}{line}" for line in written]
+    print("\n".join(lines))
+
+
 def export(options):
-    if options.format in pings.KINDS:
-        return pings.export(options)
+    if options.format in OF_PINGS:
+        return export_pings(options)
     options.split = split.parse(options.split) if options.split else None
     if len({os.path.realpath(folder) for folder in options.folders}) < len(options.folders):
         raise ValueError("a dataset is given twice")
