@@ -1,11 +1,9 @@
-"""Every file, heading, key and option that a page names exists, a function that it links to stands in that
-file, and code that it quotes stands there word by word.
+"""Every file, heading, key and option that a page names exists; code that it quotes stands in its file word by word.
 
     python3 tests/docs.py <root of the repository>
 
-A block of C++ or of a patch follows a line <!-- from FILE -->. The keys of blocks of YAML, and dotted keys in the
-text, stand in the tables of docs/mission.md; python3-yaml reads the blocks, and without it they are left out. The
-rules for code and keys are first tried on made-up pages.
+A block of C++ or of a patch follows a line <!-- from FILE -->. Blocks of YAML are left out without python3-yaml. The rules
+for code and keys are first tried on made-up pages.
 """
 import contextlib
 import importlib.util

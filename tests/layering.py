@@ -2,13 +2,8 @@
 
     python3 tests/layering.py <root of the repository>
 
-Rules: a folder of lib/ lies behind its door and includes only the folders below it, a door only the doors
-below it, a part of a folder only the parts below it,
-no files include each other in a circle, no two headers define a class of one name, folders after the
-trace take ranges from lib/trace/arrivals.h, and folders whose results reach files take elementary
-functions from lib/core/elementary.h; x.h and x.cpp count as one. Tests compare numbers by
-tests/support/approx.h. The table of docs/development.md names the same folders.
-Each rule is first tried on made-up files that break it.
+A folder of lib/ includes only the folders below it (ALLOWED), a part of a folder only the parts below it (PARTS); x.h and
+x.cpp count as one. No files include each other in a circle. Each rule is first tried on made-up files that break it.
 """
 import graphlib
 import pathlib

@@ -100,6 +100,17 @@ def sheet_mesh(half=10.0, cells=8, height=lambda x, z: 0.0):
                     for k in (a, a + 1, a + cells + 2, a, a + cells + 2, a + cells + 1)], 0
 
 
+def triangles_of(mesh):
+    points, indices, _ = mesh
+    return points, [tuple(indices[k:k + 3]) for k in range(0, len(indices), 3)]
+
+
+def obj(points, faces, head=""):
+    """A text of OBJ; faces count points from 0."""
+    return (head + "".join("v %g %g %g\n" % tuple(p) for p in points)
+            + "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in faces))
+
+
 def box_gltf(half=(2.0, 1.5, 2.0), material="Concrete"):
     return gltf([{"name": "walls", "mesh": 0}], [box_mesh(half)], (material,))
 

@@ -1,12 +1,10 @@
 """sonarsim.data: opens what sonarsim writes, with numpy alone and without the compiled module. That every
 kind of file is read: test_python.py."""
-import json
 import os
 import re
 import shutil
 import sys
 import tempfile
-import unittest
 
 from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, gltf, path_csv, run_with, sheet_mesh
 

@@ -1,7 +1,5 @@
-"""The commands of README.md, the tutorial and docs/running.md do what they say: every line of a code block
-that is a command is run, with the program under test and on small input, or stands in NOT_RUN with the
-reason. tests/docs.py checks that commands, options and keys of the other pages exist. The snippets of docs/dataset.md
-in Python are run, too, and figures that README.md states are those of other pages."""
+"""Every command in a code block of README.md, the tutorial and docs/running.md is run on small input, or stands in NOT_RUN
+with the reason; the snippets of docs/dataset.md in Python, too. Figures that README.md states are those of other pages."""
 import concurrent.futures
 import json
 import os

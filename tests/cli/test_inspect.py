@@ -4,9 +4,8 @@ import math
 import os
 import random
 import struct
-import unittest
 
-from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, box_mesh, gltf
+from sandbox import ALL_FILES, MISSION, ROOT, Sandbox, box_gltf, box_mesh, gltf, obj
 
 ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
        "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
@@ -90,9 +89,7 @@ class New(Sandbox):
         return text
 
     def test_an_obj_in_millimetres_with_z_up(self):
-        points, faces = pyramid(600)
-        self.write("cone.obj", "usemtl Hull_Wood.001\n" + "".join(f"v {x} {y} {z}\n" for x, y, z in points)
-                   + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+        self.write("cone.obj", obj(*pyramid(600), "usemtl Hull_Wood.001\n"))
         self.assert_a_mission("cone.obj", "units: mm, up: z", "# guess: the file is 1200 m long: millimetres",
                               "material Hull_Wood: wood\n", "# guess: the numbers of wood\nHull_Wood,720,4000,",
                               "\nsand,1900,1650,")
@@ -120,8 +117,7 @@ class New(Sandbox):
     def test_any_name_of_a_file(self):
         """`look_at` splits at commas, the ground and classes have names of their own, and YAML has its signs."""
         points, faces = pyramid(1)
-        mesh = ("".join(f"v {x} {z} {-y}\n" for x, y, z in points)
-                + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in faces))
+        mesh = obj([(x, z, -y) for x, y, z in points], faces)
         draw = random.Random(7)
         characters = "a1,.:#-_'\"\\{}[]&*!|>%@`~$() ?=äß\u4e2d\u2028\ufeff"
         drawn = ["".join(draw.choices(characters, k=draw.randint(1, 12))) for _ in range(20)]

@@ -3,7 +3,6 @@
 import fcntl
 import json
 import shutil
-import unittest
 
 from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
 

@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 import sys
-import unittest
 
 from sandbox import ROOT, Sandbox, box_gltf, gltf, run_with, sheet_mesh
 

@@ -6,9 +6,8 @@ A survey of a sandy sea floor with a mine on it, which is sound; each row spoils
 import json
 import math
 import os
-import unittest
 
-from sandbox import Sandbox, box_gltf, box_mesh, digest, gltf, png, sheet_mesh
+from sandbox import Sandbox, box_gltf, box_mesh, digest, gltf, obj, png, sheet_mesh, triangles_of
 
 MINE = "{name: mine, file: mine.gltf, position_m: [20, 4, 0.3]}"
 MISSION = f"""\
@@ -56,9 +55,7 @@ def lone_hull():
 
 def slab_obj():
     """A slab of 2 m x 2 m x 0.2 m whose z points up."""
-    points, indices, _ = box_mesh((1.0, 1.0, 0.1))
-    corners = [indices[k:k + 3] for k in range(0, len(indices), 3)]
-    return "\n".join(["v %g %g %g" % p for p in points] + ["f %d %d %d" % tuple(i + 1 for i in t) for t in corners]) + "\n"
+    return obj(*triangles_of(box_mesh((1.0, 1.0, 0.1))))
 
 
 def path(z=5.0, offset=(0.0, 0.0), step=1.0):

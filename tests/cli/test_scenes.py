@@ -5,28 +5,18 @@ import json
 import math
 import pathlib
 import shutil
-import unittest
 
-from sandbox import (SONARSIM, Composed, Sandbox, box_gltf, box_mesh, digest, gltf, numbers_of, png, relative_difference,
-                     sheet_mesh)
+from sandbox import (SONARSIM, Composed, Sandbox, box_gltf, box_mesh, digest, gltf, numbers_of, obj, png, relative_difference,
+                     sheet_mesh, triangles_of)
 
 OBJECT = "{name: a, file: %s, position_m: [5, 0.25, 0.5], rpy_deg: [0, 0, 30]%s}"
 FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: [4, -2, 1]}, "
         "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 5}}")
 PARTICLES = ("  particles:\n    - {name: fish, kind: points, target_strength_db: -20, count: 1, position_m: "
              "[4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]}\n")
+OBJ_HEAD = "mtllib a.mtl\no crate\nusemtl Concrete\n"
 CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      range_lambda_m: 0.02\n",
               "    model: calibrated\n")
-
-
-def triangles_of(mesh):
-    points, indices, _ = mesh
-    return points, [tuple(indices[k:k + 3]) for k in range(0, len(indices), 3)]
-
-
-def obj(points, faces, material="Concrete"):
-    return ("mtllib a.mtl\no crate\n" + "".join("v %g %g %g\n" % tuple(p) for p in points) +
-            f"usemtl {material}\n" + "".join("f %d %d %d\n" % tuple(k + 1 for k in f) for f in faces))
 
 
 def text_stl(points, faces):
@@ -78,8 +68,8 @@ class Objects(Composed):
         self.objects(OBJECT % ("crate.gltf", ""))
         whole = self.assert_images()
         for name, content, keys in (
-                ("a.obj", obj(*shape).replace("a.mtl", "../../../etc/passwd"), ""),
-                ("mm.obj", obj([(1000 * x, -1000 * z, 1000 * y) for x, y, z in points], faces), ", units: mm, up: z"),
+                ("a.obj", obj(*shape, OBJ_HEAD).replace("a.mtl", "../../../etc/passwd"), ""),
+                ("mm.obj", obj([(1000 * x, -1000 * z, 1000 * y) for x, y, z in points], faces, OBJ_HEAD), ", units: mm, up: z"),
                 ("a.STL", text_stl(*shape), ", material: Concrete")):
             with self.subTest(name=name):
                 self.write(name, content)
@@ -90,7 +80,7 @@ class Objects(Composed):
 
     def test_everywhere(self):
         """scene.file, scatter, preview and inspect take them, too; an STL has no material, and names are in any encoding."""
-        self.write("floor.obj", obj(*triangles_of(sheet_mesh(10.0, 1))).encode().replace(b"o crate", b"o Stra\xdfe\x1b[2J"))
+        self.write("floor.obj", obj(*triangles_of(sheet_mesh(10.0, 1)), OBJ_HEAD).encode().replace(b"o crate", b"o Stra\xdfe\x1b[2J"))
         self.write("a.stl", text_stl(*triangles_of(box_mesh())))
         self.scene("  scatter:\n    - {name: mine, files: [a.stl], material: steel, count: 2, area_min_m: [2, -4], "
                    "area_max_m: [8, 4]}\n", head="  file: floor.obj\n  materials: materials.csv\n")

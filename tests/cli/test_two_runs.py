@@ -5,7 +5,6 @@ import random
 import shutil
 import signal
 import time
-import unittest
 
 from sandbox import Sandbox, digest, path_csv, with_disk
 

@@ -2,7 +2,6 @@
 import json
 import math
 import shutil
-import unittest
 
 from sandbox import MISSION, Sandbox, box_gltf, digest
 

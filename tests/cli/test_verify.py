@@ -7,7 +7,6 @@ import re
 import resource
 import shutil
 import time
-import unittest
 
 from sandbox import ALL_FILES, SANITIZED, Sandbox, digest, path_csv
 

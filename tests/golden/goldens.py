@@ -3,12 +3,10 @@
 
     tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER] [--under "qemu-x86_64 -cpu max"]
 
-Each mission is rendered with one and with two threads, one also in three shards that are merged; kills:
-cli/test_faults.py. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
-the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
-variants of a mission are one dataset here. Two missions are previewed. --write writes goldens.txt again; say in the
-commit why its lines changed. --under runs the program by a command, such as an emulator of another processor, with one
-thread.
+Each mission is rendered with one and with two threads, one also in three shards that are merged. A line of goldens.txt is a
+dataset (with all variants), a sensor (or `-`), a kind of file, the number of such files, and the hash of their contents:
+arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. Say in the commit why lines changed that
+--write writes again. --under runs the program by a command, such as an emulator of another processor, with one thread.
 """
 import argparse
 import concurrent.futures

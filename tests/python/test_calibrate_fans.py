@@ -1,6 +1,5 @@
 """sonarsim.calibrate of fans: drawn grey laws, gains, noise and beams of a tank are found, and what is refused."""
 import json
-import unittest
 
 import numpy as np
 from PIL import Image

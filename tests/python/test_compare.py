@@ -38,9 +38,9 @@ class FiguresTest(unittest.TestCase):
             np.testing.assert_allclose(speckle.weibull_shape(patch) / shape, 1.0, atol=0.022)
         self.assertTrue(np.isnan(speckle.weibull_shape(np.full((1, 3, 3), 2.0)))[0])
         rayleigh = random.rayleigh(1.0, (1, 200, 200))
-        for measure, value, off in ((speckle.variation, np.sqrt(4 / np.pi - 1), 0.01), (speckle.skewness, -1.1395, 0.12),
+        for of_speckle, value, off in ((speckle.variation, np.sqrt(4 / np.pi - 1), 0.01), (speckle.skewness, -1.1395, 0.12),
                                     (speckle.inverse_k_shape, 0.0, 0.03)):
-            np.testing.assert_allclose(measure(rayleigh), value, atol=off)
+            np.testing.assert_allclose(of_speckle(rayleigh), value, atol=off)
         checkers = 1.0 + 2.0 * (np.add.outer(np.arange(8), np.arange(6)) % 2)[None]
         for lag, axis, value in ((1, 1, -1.0), (2, 1, 1.0), (3, 2, -1.0), (6, 2, np.nan)):
             np.testing.assert_allclose(speckle.correlation(checkers, lag, axis), value)

@@ -3,7 +3,6 @@ import io
 import json
 import subprocess
 import tarfile
-import unittest
 
 import numpy as np
 import tool

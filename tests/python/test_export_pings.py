@@ -8,7 +8,6 @@ import shutil
 import struct
 import subprocess
 import tempfile
-import unittest
 
 import numpy as np
 import tool

@@ -2,7 +2,6 @@
 counterpart is named with its path in the scenario."""
 import json
 import re
-import unittest
 
 from tool import ROOT, ToolTest
 from sonarsim import import_holoocean
