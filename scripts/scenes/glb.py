@@ -31,39 +31,32 @@ class Part:
         return sum(len(numbers) for numbers in self.indices.values()) // 3
 
 
-class Buffer:
-    """The BIN chunk, with the views and accessors into it."""
+def write_glb(path, parts):
+    """One node and one mesh per part, one primitive per material of it."""
+    names = sorted({material for part in parts for material in part.indices})
+    binary, views, accessors, meshes = bytearray(), [], [], []
 
-    def __init__(self):
-        self.data, self.views, self.accessors = bytearray(), [], []
-
-    def add(self, values, kind, count, **more):
-        """Adds an array. Returns the number of its accessor."""
+    def accessor(values, kind, count, **more):
+        """Adds an array to the BIN chunk. Returns the number of its accessor."""
         if sys.byteorder == "big":
             values = values[:]
             values.byteswap()
         data = values.tobytes()
         data += b"\0" * (-len(data) % 4)
-        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
-        self.accessors.append({"bufferView": len(self.views) - 1, "componentType": COMPONENT_TYPES[values.typecode],
-                               "count": count, "type": kind, **more})
-        self.data += data
-        return len(self.accessors) - 1
+        accessors.append({"bufferView": len(views), "componentType": COMPONENT_TYPES[values.typecode],
+                          "count": count, "type": kind, **more})
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data)})
+        binary.extend(data)
+        return len(accessors) - 1
 
-
-def write_glb(path, parts):
-    """One node and one mesh per part, one primitive per material of it."""
-    names = sorted({material for part in parts for material in part.indices})
-    buffer = Buffer()
-    meshes = []
     for part in parts:
         axes = [part.vertices[k::3] for k in range(3)]
         count = len(axes[0])
-        positions = buffer.add(part.vertices, "VEC3", count, min=[*map(min, axes)], max=[*map(max, axes)])
+        positions = accessor(part.vertices, "VEC3", count, min=[*map(min, axes)], max=[*map(max, axes)])
         code = "H" if count < 65536 else "I"
         meshes.append({"name": part.name, "primitives": [
             {"attributes": {"POSITION": positions},
-             "indices": buffer.add(array.array(code, numbers), "SCALAR", len(numbers)),
+             "indices": accessor(array.array(code, numbers), "SCALAR", len(numbers)),
              "material": names.index(material)} for material, numbers in part.indices.items()]})
     document = {
         "asset": {"version": "2.0", "generator": "sonarsim make_scenes.py"},
@@ -72,11 +65,11 @@ def write_glb(path, parts):
         "nodes": [{"name": part.name, "mesh": i} for i, part in enumerate(parts)],
         "meshes": meshes,
         "materials": [{"name": name, "doubleSided": True} for name in names],
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"byteLength": len(buffer.data)}],
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(binary)}],
     }
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + len(buffer.data), len(text), b"JSON")
-    path.write_bytes(head + text + struct.pack("<I4s", len(buffer.data), b"BIN\0") + buffer.data)
+    head = struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + len(binary), len(text), b"JSON")
+    path.write_bytes(head + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary)
