@@ -10,7 +10,8 @@ from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
 class Merge(Sandbox):
     def setUp(self):
         super().setUp()
-        self.write("mission.yaml", ALL_FILES)
+        self.write("mission.yaml", ALL_FILES.replace("output: {", "  head: {kind: scanning, range_max_m: 6, range_bins: 16}\n"
+                                                     "output: {xtf: true, mosaic: true, labels: true, "))
         self.write("path.csv", path_csv(5))
         self.whole = self.render_whole()
         for k in "123":
@@ -24,7 +25,7 @@ class Merge(Sandbox):
         before = [digest(self.folder / part) for part in folders[:-1]]
         merged = json.loads(self.succeeds("merge", *folders, "--json").stdout)
         self.assertEqual([digest(self.folder / part) for part in folders[:-1]], before)
-        self.assertEqual((merged["missing"], merged["pings"] + merged["skipped"]), (rendered, 20 - rendered))
+        self.assertEqual((merged["missing"], merged["pings"] + merged["skipped"]), (rendered, 25 - rendered))
         completed = json.loads(self.assert_renders("--out", folders[-1], "--json").stdout)
         self.assertEqual((completed["pings"], completed["complete"]), (rendered, True))
         self.assertEqual(digest(self.folder / folders[-1]), self.whole)
@@ -41,7 +42,7 @@ class Merge(Sandbox):
         self.assertIs(self.assert_merges("part1", "all", "part1", "copy")["complete"], True)
 
     def test_render_renders_what_is_missing(self):
-        self.assert_merges("part1", "part3", "two", rendered=7)
+        self.assert_merges("part1", "part3", "two", rendered=8)
         # Another size than the journal lists, and a record that is not as the journal lists it.
         next((self.folder / "part2/fls/fan").iterdir()).write_bytes(b"")
         path = self.folder / "part2/sss/waterfall.npy"

@@ -3,10 +3,9 @@
 
     tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER] [--under "qemu-x86_64 -cpu max"]
 
-Each mission is rendered with one and with two threads, one also in three shards that are merged. A line of goldens.txt is a
-dataset (with all variants), a sensor (or `-`), a kind of file, the number of such files, and the hash of their contents:
-arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. Say in the commit why lines changed that
---write writes again. --under runs the program by a command, such as an emulator of another processor, with one thread.
+Each mission is rendered with one and with two threads. A line of goldens.txt is a dataset (with all variants), a sensor (or
+`-`), a kind of file, the number of such files, and the hash of their contents: arrays, decoded pixels, parsed JSON without
+what names a build, a version or a sum. Say in the commit why lines changed that --write writes again. --under runs the program by a command, such as an emulator of another processor, with one thread.
 """
 import argparse
 import concurrent.futures
@@ -30,7 +29,7 @@ sys.path.append(str(ROOT / "tests/cli"))
 from sandbox import box_mesh, gltf
 
 GOLDENS = HERE / "goldens.txt"
-SHARDED, PREVIEWED = "records", ("imaging_strips", "records")
+PREVIEWED = ("imaging_strips", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
 NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
 NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}
@@ -115,40 +114,25 @@ class Renderer:
     def __init__(self, program, folder, under=()):
         self.program, self.folder = [*under, str(pathlib.Path(program).resolve())], folder
 
-    def command(self, name, out, *arguments):
-        return [*self.program, "render", f"missions/{name}.yaml", "--quiet", "--out", out, *arguments]
-
-    def run(self, *command):
+    def run(self, *words):
+        command = [*self.program, *map(str, words)]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
         if result.returncode:
-            raise SystemExit(f"{' '.join(map(str, command))}: exit code {result.returncode}\n{result.stderr}")
-
-    def lines(self, name, out):
-        datasets = sorted(out.glob("variant_*")) or [out]
-        if not all((dataset / "SHA256SUMS").is_file() for dataset in datasets):
-            raise SystemExit(f"{out}: the dataset is not complete")
-        return lines_of(name, out)
+            raise SystemExit(f"{' '.join(command)}: exit code {result.returncode}\n{result.stderr}")
 
     def with_threads(self, name, threads):
         out = self.folder / f"out/{name}_{threads}"
-        self.run(*self.command(name, out, "--threads", str(threads)))
-        return self.lines(name, out)
-
-    def sharded(self, name):
-        out = self.folder / f"out/{name}_sharded"
-        parts = [self.folder / f"out/{name}_part{k}" for k in (1, 2, 3)]
-        for k, part in enumerate(parts):
-            self.run(*self.command(name, part, "--shard", f"{k + 1}/3"))
-        self.run(*self.program, "merge", *parts, out)
-        self.run(*self.command(name, out))
-        return self.lines(name, out)
+        self.run("render", f"missions/{name}.yaml", "--quiet", "--out", out, "--threads", threads)
+        if not all((dataset / "SHA256SUMS").is_file() for dataset in sorted(out.glob("variant_*")) or [out]):
+            raise SystemExit(f"{out}: the dataset is not complete")
+        return lines_of(name, out)
 
     def previews(self):
         """The pictures of sonarsim preview, of a fan, and of a side-scan sonar, an echosounder and a scanning sonar."""
         lines = []
         for name in PREVIEWED:
             out = self.folder / f"out/{name}_preview.png"
-            self.run(*self.program, "preview", f"missions/{name}.yaml", "--ping", "3", "--quiet", "--out", out)
+            self.run("preview", f"missions/{name}.yaml", "--ping", "3", "--quiet", "--out", out)
             lines.append(f"preview - {name}.png 1 {hashlib.sha256(pixel_bytes(out)).hexdigest()[:32]}")
         return lines
 
@@ -158,7 +142,7 @@ def all_runs(renderer, counts):
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
     jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
             for threads in counts for name in names]
-    jobs += [("preview", "1 threads", renderer.previews, ()), (SHARDED, "three shards", renderer.sharded, (SHARDED,))]
+    jobs.append(("preview", "1 threads", renderer.previews, ()))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
         return [(name, way, future.result()) for name, way, future in futures]

@@ -1,7 +1,6 @@
 """sonarsim.calibrate: fits of synthetic pings with drawn numbers, a small dataset, and what is refused."""
 import contextlib
 import dataclasses
-import io
 import json
 import os
 import unittest
@@ -10,7 +9,7 @@ import unittest.mock
 import numpy as np
 from scipy import special
 from tool import ROOT, ToolTest
-from sonarsim.calibrate import command, correlations, image, judge, law, levels, noise, preset, scene  # noqa: E402
+from sonarsim.calibrate import correlations, image, judge, law, levels, noise, preset, scene  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, delivered  # noqa: E402
 from sonarsim.recording import Law, Recording  # noqa: E402
@@ -267,20 +266,20 @@ class Command(ToolTest):
         super().setUp()
         (self.folder / "start.yaml").write_text(START)
 
-    def calibrate(self, recording, start="start.yaml", *options):
-        start = str(self.folder / start) if start.endswith(".yaml") else start
-        out = io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            code = command.main([str(self.folder / recording), "--preset", start, "--out", str(self.folder / "mine.yaml"), *options])
-        return code, out.getvalue()
+    def words(self, recording, start, *options):
+        start = self.folder / start if start.endswith(".yaml") else start
+        return "calibrate", self.folder / recording, "--preset", start, "--out", self.folder / "mine.yaml", *options
+
+    def calibrate(self, *words):
+        """The report of a calibration."""
+        self.succeeds(*self.words(*words), "--report", self.folder / "mine.json")
+        return json.loads((self.folder / "mine.json").read_text())
 
     def refused(self, sentence, values, *options, start="start.yaml"):
         np.save(self.folder / "pings.npy", np.asarray(values))
         (self.folder / "recording.yaml").write_text(RECORDING)
-        code, out = self.calibrate("recording.yaml", start, *options)
-        self.assertEqual(code, 2, out)
-        self.assertRegex(out, "^sonarsim calibrate: [^\n]*" + sentence + "[^\n]*\n$")
-        self.assertFalse((self.folder / "mine.yaml").exists())
+        name, *words = self.words("recording.yaml", start, *options)
+        self.assert_refused(name, sentence, *words)
 
     def test_program_beside_the_package(self):
         with unittest.mock.patch.dict(os.environ, {"PATH": "", "SONARSIM": ""}):
@@ -345,18 +344,14 @@ class Command(ToolTest):
     def test_gain_of_a_scene_without_rows_of_noise_stays_that_of_the_start(self):
         """In a tank echoes fill all ranges; the start is the true preset."""
         self.sonarsim("render", str(ROOT / "configs/tank_calibrated.yaml"), "--set", "trajectory.rate_hz=3", "--out", "tank", "-q")
-        code, text = self.calibrate("tank", "oculus_m1200d_2100khz_10m", "--report", str(self.folder / "mine.json"))
-        self.assertEqual(code, 0, text)
-        found = json.loads((self.folder / "mine.json").read_text())
+        found = self.calibrate("tank", "oculus_m1200d_2100khz_10m")
         self.assertNotIn("receiver.full_scale_db", found["estimates"])
         self.assertAlmostEqual(found["estimates"]["receiver.gamma"]["value"], 0.5, delta=0.02)
         self.assertGreaterEqual(found["agree"]["held_out"], found["agree"]["start"])
 
     def gives_its_instrument_back(self, out):
         self.sonarsim("render", "mission.yaml", "--out", out, "-q")
-        code, text = self.calibrate(out, "start.yaml", "--report", str(self.folder / "mine.json"))
-        self.assertEqual(code, 0, text)
-        found = json.loads((self.folder / "mine.json").read_text())
+        found = self.calibrate(out, "start.yaml")
         for key, truth in TRUTH.items():
             number = found["estimates"][key]
             half = 0.5 * (number["high"] - number["low"])
