@@ -119,12 +119,11 @@ def silhouettes(bodies):
     cell = np.floor(across * STEPS).astype(int) * 100000 + np.floor(up * STEPS).astype(int) + 50000
     order = np.lexsort((r, cell))
     nearest = order[np.unique(cell[order], return_index=True)[1]]
-    seen = {name: np.zeros((BINS, BEAMS), bool) for name in bodies}
-    for k in nearest:
-        bin_, beam = int((r[k] - 0.8) / 0.01), int(across[k])
-        if abs(np.degrees(np.arcsin(at[k, 2] / r[k]))) < 20 and 0 <= bin_ < BINS and 0 <= beam < BEAMS:
-            seen[list(bodies)[owner[k]]][bin_, beam] = True
-    return {name: convex(ndimage.binary_fill_holes(mask)) for name, mask in seen.items()}
+    bins, beams = np.floor((r - 0.8) / 0.01).astype(int), np.floor(across).astype(int)
+    is_in_view = (np.abs(up) < 20 / 60 * BEAMS) & (bins >= 0) & (bins < BINS) & (beams >= 0) & (beams < BEAMS)
+    seen, shown = np.zeros((len(bodies), BINS, BEAMS), bool), nearest[is_in_view[nearest]]
+    seen[owner[shown], bins[shown], beams[shown]] = True
+    return {name: convex(ndimage.binary_fill_holes(mask)) for name, mask in zip(bodies, seen)}
 
 
 def convex(mask):

@@ -171,16 +171,12 @@ def run(folder, threads=2):
         limit_memory()
 
     start = time.monotonic()
-    with subprocess.Popen([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limit) as process:
-        try:
-            _, stderr = process.communicate(timeout=LONGEST_S)
-            code = process.returncode
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGTERM)
-            _, stderr = process.communicate(timeout=60)
-            code = None
-    return code, stderr, time.monotonic() - start
+    try:
+        done = subprocess.run([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, preexec_fn=limit, timeout=LONGEST_S)
+    except subprocess.TimeoutExpired as fault:
+        return None, str(fault.stderr), LONGEST_S
+    return done.returncode, done.stderr, time.monotonic() - start
 
 
 def check(folder):

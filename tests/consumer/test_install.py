@@ -11,6 +11,12 @@ import subprocess
 import sys
 import tempfile
 
+MISSION = """\
+scene: {file: SHARE/scenes/tank.glb, materials: SHARE/scenes/materials.csv}
+trajectory: {file: SHARE/trajectories/tank_loop.csv}
+sensors: {fls: {preset: sensors/gemini_720is.yaml}}
+"""
+
 
 def run(*command, **options):
     result = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
@@ -62,10 +68,7 @@ def main(build, compiler):
         assert pathlib.Path(folder, "out/tank_imaging/SHA256SUMS").exists()
         render_all(prefix / "bin/sonarsim", share, folder)
         # It finds the instruments of the package.
-        pathlib.Path(folder, "mission.yaml").write_text(
-            f"scene: {{file: {share}/scenes/tank.glb, materials: {share}/scenes/materials.csv}}\n"
-            f"trajectory: {{file: {share}/trajectories/tank_loop.csv}}\n"
-            "sensors: {fls: {preset: sensors/gemini_720is.yaml}}\n")
+        pathlib.Path(folder, "mission.yaml").write_text(MISSION.replace("SHARE", str(share)))
         run(prefix / "bin/sonarsim", "validate", "mission.yaml", cwd=folder)
         # It finds its module wherever the folders lie.
         copy = pathlib.Path(folder, "copy")

@@ -7,7 +7,7 @@ import pathlib
 import sys
 import tempfile
 
-from test_install import run
+from test_install import MISSION, run
 
 SYSTEM = ("linux-vdso", "/lib64/ld-linux", "libc.so", "libm.so", "libstdc++", "libgcc_s")
 USE = """
@@ -29,11 +29,7 @@ def main(root):
             for line in run("ldd", file).splitlines():
                 assert f"{package}/" in line or line.strip().startswith(SYSTEM), f"{file}: {line}"
         env = {**os.environ, "PYTHONPATH": site, "PYTHONSAFEPATH": "1"}
-        share = pathlib.Path(root).resolve()
-        (folder / "mission.yaml").write_text(
-            f"scene: {{file: {share}/scenes/tank.glb, materials: {share}/scenes/materials.csv}}\n"
-            f"trajectory: {{file: {share}/trajectories/tank_loop.csv}}\n"
-            "sensors: {fls: {preset: sensors/gemini_720is.yaml}}\noutput: {labels: [objects]}\n")
+        (folder / "mission.yaml").write_text(MISSION.replace("SHARE", os.path.realpath(root)) + "output: {labels: [objects]}\n")
         print(run(sys.executable, "-Bc", USE, cwd=folder, env=env).strip())
         sonarsim = site / "bin/sonarsim"
         run(sonarsim, "render", "mission.yaml", "--out", "out", "--set", "trajectory.rate_hz=0.2", cwd=folder, env=env)

@@ -30,7 +30,7 @@ def save(path, mask, margin=0):
     Image.fromarray(np.pad(np.where(mask, 255, 40).astype(np.uint8), ((margin, 0), (0, 0)))).save(path)
 
 
-def in_picture(mask, width=None):
+def in_picture(mask):
     return {"id": 2, "name": "mine_1", "class": "mine", "box_px": box_of(mask, "x", "y"), "area_px": int(mask.sum()),
             "mask": counts_of(mask), "range_m": 4.5, "contrast_db": 8.0, "visible_share": 1.0, "clipped": False}
 

@@ -153,13 +153,7 @@ class Mutations(tool.ToolTest):
             shutil.rmtree(self.folder / "e", ignore_errors=True)
 
     def test_any_value(self):
-        (self.folder / "m.yaml").write_text(
-            f"name: small\nscene: {{file: {tool.ROOT}/scenes/tank.glb, materials: {tool.ROOT}/scenes/materials.csv}}\n"
-            f"trajectory: {{file: {tool.ROOT}/trajectories/tank_loop.csv, rate_hz: 0.5}}\nsensors:\n"
-            "  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 64, azimuth_bins: 32}\n"
-            "  sss: {kind: sidescan, range_max_m: 6, range_bins: 16}\n"
-            "labels: {background: [none]}\noutput: {folder: in, labels: [objects]}\n")
-        self.sonarsim("render", "m.yaml", "-q")
+        self.render_tank("in", "trajectory.rate_hz=0.5")
         source, draw = self.folder / "in", random.Random(3)
         names = ["dataset.json", *(str(path.relative_to(source)) for path in sorted(source.rglob("*/*.json")))]
         self.run_tools(source, TOOLS)

@@ -120,8 +120,7 @@ class Export(tool.ToolTest):
             name = f"fls-{ping:06}.png"
             self.assertEqual((self.dest / "train" / name).read_bytes(), (self.out / f"fls/fan/{ping:06}.png").read_bytes())
             expected = [one for one in fan_objects(ping) if one[1] != "bottom" and one[3] >= 0.1]
-            self.assertEqual(len(found[name]), len(expected))
-            for one, (number, _, mask, share, contrast) in zip(found[name], expected):
+            for one, (number, _, mask, share, contrast) in zip(found[name], expected, strict=True):
                 self.assertEqual((one["instance_id"], one["category_id"], one["iscrowd"]), (number, number - 1, 0))
                 self.assertEqual((one["bbox"], one["area"]), (box_of(mask), mask.sum()))
                 np.testing.assert_array_equal(mask_of(one["segmentation"]["counts"], WIDTH, HEIGHT), mask)

@@ -78,8 +78,7 @@ class Pings(tool.ToolTest):
         self.assertEqual(config["agents"][0]["sensors"][-1]["configuration"], {key: config[key] for key in own})
         self.assertEqual((config["ds_factor"], config["simple_denoise"]), (1.0, False))
         files = sorted((self.folder / "dest/Data").iterdir(), key=lambda path: int(path.stem))
-        self.assertEqual(len(files), len(self.dataset["fls"]))
-        for path, sample in zip(files, self.dataset["fls"]):
+        for path, sample in zip(files, self.dataset["fls"], strict=True):
             state = pickle.loads(path.read_bytes())
             image, c2w = state["ImagingSonar"], state["PoseSensor"]
             self.assertEqual((image.dtype, image.shape, c2w.shape), (np.float32, (own["RangeBins"], own["AzimuthBins"]), (4, 4)))

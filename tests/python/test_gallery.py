@@ -140,29 +140,13 @@ class InBrowser(Gallery):
             self.assertEqual(window.run("return document.title"), "out - sonarsim")
 
 
-MISSION = """\
-name: tank
-scene: {file: ROOT/scenes/tank.glb, materials: ROOT/scenes/materials.csv}
-trajectory: {file: ROOT/trajectories/tank_loop.csv, rate_hz: 3}
-sensors:
-  fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_max_m: 8, range_bins: 128, azimuth_bins: 64, every: 2}
-  sss: {kind: sidescan, range_max_m: 8, range_bins: 128}
-  sounder: {kind: echosounder, range_max_m: 6, range_bins: 96}
-  head: {kind: scanning, range_max_m: 8, range_bins: 128, step_deg: 24}
-classes: [{nodes: "wall_*", class: wall, instance: walls}, {nodes: floor, class: bottom}, {nodes: "*", class: object}]
-output: {folder: out, labels: [objects]}
-labels: {background: [none]}
-"""
-
-
 @unittest.skipUnless("SONARSIM" in os.environ, "no program to render with")
 class Rendered(Gallery):
     def test_every_sonar_of_a_rendered_dataset_has_its_objects(self):
-        (self.folder / "mission.yaml").write_text(MISSION.replace("ROOT", str(tool.ROOT)))
-        self.sonarsim("render", "mission.yaml", "-q")
+        self.render_tank("out", "trajectory.rate_hz=3")
         self.write_page()
         about = json.loads(json.loads((self.out / "index_files/0.js").read_text()[len('take("0",'):-2]))
-        self.assertEqual([sensor["name"] for sensor in about["sensors"]], ["fls", "sss", "sounder", "head"])
+        self.assertEqual([sensor["name"] for sensor in about["sensors"]], ["sss", "sounder", "head", "fls"])
         for sensor in about["sensors"]:
             with self.subTest(sensor=sensor["name"]):
                 files = [*self.out.glob(f"{sensor['name']}/objects*.json"), *self.out.glob(f"{sensor['name']}/objects/*.json")]

@@ -53,6 +53,13 @@ class ToolTest(unittest.TestCase):
         self.assertEqual((result.returncode, "Traceback" in result.stderr), (code, False), result.stderr)
         return result
 
+    def render_tank(self, out, *settings):
+        """Renders a fan and the records of other sonars in the tank, with objects."""
+        fls = "{kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_max_m: 8, range_bins: 64, azimuth_bins: 32, every: 2}"
+        settings = f"sensors.fls={fls}", "labels.background=[none]", "output={labels: [objects]}", *settings
+        self.sonarsim("render", ROOT / "tests/golden/missions/records.yaml", "--paths-from", ROOT / "configs", "-q", "--out",
+                      out, *(f"--set={setting}" for setting in settings))
+
     def succeeds(self, name, *words):
         """What it prints; it has nothing to warn of."""
         result = run(name, *words)

@@ -197,7 +197,7 @@ def buoy(draw):
                    (draw(40, 140), 0, draw(0, 360)), draw(0, 0.02), draw.whole(1, 9999))
 
 
-def netting(draw, x, y, mesh, hill, seed):
+def netting(draw, x, y, mesh, hill):
     """Threads of a net over low hills, and its height at u, v in 0..1."""
     waves = [(draw(1, 4), draw(1, 4), draw(0, 6)) for _ in range(3)]
 
@@ -214,14 +214,14 @@ def netting(draw, x, y, mesh, hill, seed):
 
 
 def net(draw):
-    lines, _ = netting(draw, draw(0.6, 2.2), draw(0.6, 1.8), draw(0.05, 0.13), draw(0.02, 0.25), 1)
+    lines, _ = netting(draw, draw(0.6, 2.2), draw(0.6, 1.8), draw(0.05, 0.13), draw(0.02, 0.25))
     return resting([part("net", "rope", *lines)], (0, 0, draw(0, 360)))
 
 
 def ghost_gear(draw):
     """A lost net with its head rope, floats and weights."""
     x, y = draw(1.0, 2.4), draw(0.6, 1.6)
-    lines, at = netting(draw, x, y, 0.12, draw(0.15, 0.5), 2)
+    lines, at = netting(draw, x, y, 0.12, draw(0.15, 0.5))
     head = tube([at(k / 24, 0.0) for k in range(25)], 0.011, 6)
     floats = [moved(ball((0.05, 0.035, 0.035)), *at(k / 7, 0.0)) for k in range(8) if draw(0, 1) < 0.8]
     leads = [moved(ball((0.03, 0.018, 0.018), levels=1), *at(k / 9, 1.0)) for k in range(10)]
