@@ -104,7 +104,7 @@ class InBrowser(Gallery):
                 window.press(key)
                 self.assertEqual(window.run("return state.ping"), ping)
                 window.wait_for("return $('seen').textContent === 'mine_1 (mine)'")
-            self.assertIn("contrast_db8", window.run("return $('facts').textContent"))
+            window.wait_for("return $('facts').textContent.includes('contrast_db8')")
             window.press("right")
             self.assertEqual(window.run("return state.ping"), PINGS - 1)
             window.press("left")

@@ -7,10 +7,9 @@
 import dataclasses
 import pathlib
 
-from .arrays import read_soundings
 from .dataset import read_dataset
 from .description import FILE_NAME, read_description
-from .files import read_files
+from .files import read_files, read_soundings
 from .recording import MAX_VALUES, Law, Recording, RecordingError, Soundings
 
 __all__ = ["Law", "Recording", "RecordingError", "Soundings", "open_recording"]

@@ -2,8 +2,8 @@
 import numpy as np
 
 from .. import data
-from .arrays import two_sides
 from .description import Section, read_yaml
+from .files import two_sides
 from .recording import MAX_POWER, MAX_VALUES, Law, Recording, RecordingError, Soundings
 
 LARGEST_MISSION = 1 << 26
