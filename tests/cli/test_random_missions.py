@@ -172,8 +172,8 @@ def run(folder, threads=2):
 
     start = time.monotonic()
     try:
-        done = subprocess.run([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, preexec_fn=limit, timeout=LONGEST_S)
+        done = subprocess.run([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True, preexec_fn=limit,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=LONGEST_S)
     except subprocess.TimeoutExpired as fault:
         return None, str(fault.stderr), LONGEST_S
     return done.returncode, done.stderr, time.monotonic() - start

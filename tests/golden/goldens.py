@@ -5,7 +5,8 @@
 
 Each mission is rendered with one and with two threads. A line of goldens.txt is a dataset (with all variants), a sensor (or
 `-`), a kind of file, the number of such files, and the hash of their contents: arrays, decoded pixels, parsed JSON without
-what names a build, a version or a sum. Say in the commit why lines changed that --write writes again. --under runs the program by a command, such as an emulator of another processor, with one thread.
+what names a build, a version or a sum. --write writes goldens.txt again; say in the commit why its lines changed. --under
+runs the program by a command, such as an emulator of another processor, with one thread.
 """
 import argparse
 import concurrent.futures

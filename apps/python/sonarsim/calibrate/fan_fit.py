@@ -1,5 +1,6 @@
-"""Fits a preset to fans, grey PNG files of 8 bits as a display shows them: boresight up, black outside. They are smoothed, resampled and clipped, so no closed form holds: the echoes of a scene get
-noise, gain, grey law and the pixels of the fans, with numbers that give both the same greys and the same grain."""
+"""Fits a preset to fans as a display shows them: grey PNG files of 8 bits, boresight up, black outside of the sector. They
+are smoothed, resampled and clipped, so no closed form holds: the echoes of a scene get noise, gain, grey law and the pixels of
+the fans, with numbers that give both the same greys and the same grain."""
 import copy
 
 import numpy as np

@@ -197,7 +197,7 @@ def shadow_figures(images, grid, zones):
 def shadows_of(image, begin):
     """(column, first range, end, depth in dB, width of the far edge) of the shadows from range `begin` on."""
     # Windows end at the image's borders.
-    inside, ones = ([ndimage.uniform_filter(one, size, mode="constant")[begin:] for size in ((SHADOW_WINDOW, SHADOW_WINDOW), (1, SHADOW_WINDOW))]
+    inside, ones = ([ndimage.uniform_filter(one, (rows, SHADOW_WINDOW), mode="constant")[begin:] for rows in (SHADOW_WINDOW, 1)]
                     for one in (image, np.ones_like(image)))
     smooth, across = inside[0] / ones[0], inside[1] / ones[1]
     middle = image.shape[1] // 2
