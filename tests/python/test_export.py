@@ -11,7 +11,7 @@ from sonarsim.data import open_dataset
 from sonarsim.export import runs
 from sonarsim.export.split import poses_parts
 from sonarsim.export.stand_out import Greys
-from tool import counts_of, disc, mask_of
+from tool import counts_of, disc, edited, mask_of
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
 ROWS, COLUMNS = 60, 24
@@ -111,6 +111,13 @@ class Export(tool.ToolTest):
             found[names[one["image_id"]]].append(one)
         return file, found
 
+    def change_mines(self, change):
+        """Gives the mine other greys in every fan."""
+        for ping in range(PINGS):
+            path = self.out / f"fls/fan/{ping:06}.png"
+            fan = np.asarray(Image.open(path))
+            Image.fromarray(np.where(fan_objects(ping)[1][2], change(fan), fan)).save(path)
+
     def test_coco(self):
         self.export(self.out, "--format", "coco")
         file, found = self.coco()
@@ -188,11 +195,7 @@ class Export(tool.ToolTest):
 
     def test_objects_that_no_eye_sees(self):
         """Objects that add 8 greys to a noise of 34 are faint, dark ones are not; all formats agree on it."""
-        for ping in range(PINGS):
-            path = self.out / f"fls/fan/{ping:06}.png"
-            fan = np.asarray(Image.open(path)).copy()
-            fan[fan_objects(ping)[1][2]] -= BRIGHTER - 8
-            Image.fromarray(fan).save(path)
+        self.change_mines(lambda grey: grey - (BRIGHTER - 8))
         fls, faint = (self.out, "--sensor", "fls", "--format"), {}
         for words, expected in (((), [3]), (("--min-grey", "0"), [2, 3]), (("--min-grey", "200"), [])):
             dests = [self.folder / "-".join((kind, *words)) for kind in ("coco", "yolo", "masks")]
@@ -212,11 +215,7 @@ class Export(tool.ToolTest):
                     mask = mask_of(one["segmentation"]["counts"], WIDTH, HEIGHT)
                     np.testing.assert_array_equal(marks == one["category_id"], mask)
                 self.assertEqual(set(np.unique(marks)), {0} | {number - 1 for number in expected})
-        for ping in range(PINGS):
-            path = self.out / f"fls/fan/{ping:06}.png"
-            fan = np.asarray(Image.open(path)).copy()
-            fan[fan_objects(ping)[1][2]] //= 20
-            Image.fromarray(fan).save(path)
+        self.change_mines(lambda grey: grey // 20)
         self.export(*fls, "coco")
         self.assertEqual([one["instance_id"] for one in self.coco()[1]["fls-000001.png"]], [2, 3])
         self.assertLess(faint["--min-grey", "0"], faint[()])
@@ -235,11 +234,9 @@ class Export(tool.ToolTest):
 
     def test_parts_that_no_eye_sees(self):
         """A part of a mask that shows the bed alone is left out of it."""
-        path = self.out / "fls/objects/000001.json"
-        listed = json.loads(path.read_text())
         disc, noise = fan_objects(1)[1][2], rectangle((HEIGHT, WIDTH), 20, 27, 4, 11)
-        listed["objects"][1]["fan"]["mask"] = counts_of(disc | noise)
-        path.write_text(json.dumps(listed))
+        with edited(self.out / "fls/objects/000001.json") as listed:
+            listed["objects"][1]["fan"]["mask"] = counts_of(disc | noise)
         for words, expected in (((), disc), (("--min-grey", "0"), disc | noise)):
             dest = self.folder / f"parts{len(words)}"
             self.export(self.out, "--sensor", "fls", "--format", "coco", *words, dest=dest)
@@ -250,11 +247,10 @@ class Export(tool.ToolTest):
 
     def test_crops(self):
         """Around each object and of the bed, at a scale in metres; 1:1 a crop has the pixels of the picture."""
-        path = self.out / "dataset.json"
-        description = json.loads(path.read_text())
         half = np.arcsin(20 / 30)       # a fan of 40 x 30 m with pixels of 1 m
-        description["sensors"][0].update(range_edges_m=[1.0, 30.0], azimuth_edges_rad=[-half, half])
-        path.write_text(json.dumps(description))
+        with edited(self.out / "dataset.json") as description:
+            description["sensors"][0].update(range_edges_m=[1.0, 30.0], azimuth_edges_rad=[-half, half])
+            description["sensors"][1]["range_edges_m"] = [0.0, 0.5]     # of a column
         fls = "--format", "crops", "--sensor", "fls", "--crop", "20x16"
         self.export(self.out, *fls, "--pixel-m", "0.5", "--negatives", "2")
         found = sorted(str(one.relative_to(self.dest)) for one in self.dest.rglob("*.png"))
@@ -275,8 +271,6 @@ class Export(tool.ToolTest):
         rows = "".join(f"{k} {0.5 * k} 0 0 0 0 0 1\n" for k in range(ROWS))
         (self.out / "trajectory.tum").write_text(rows)
         dest = self.folder / "strip"
-        description["sensors"][1]["range_edges_m"] = [0.0, 0.5]     # of a column
-        path.write_text(json.dumps(description))
         self.export(self.out, "--format", "crops", "--sensor", "sss", "--pixel-m", "0.5", "--crop", "17", dest=dest)
         crop = np.asarray(Image.open(next(dest.glob("train/mine/*.png"))))
         linear = np.asarray(Image.open(self.out / "sss/waterfall.png"))[3:20, :14] / 65535     # its middle is (5.5, 11.5)
@@ -315,9 +309,8 @@ class Export(tool.ToolTest):
                                                                            (-np.sin(turn), np.cos(turn))))
         mask = (np.abs(along) < 11) & (np.abs(across) < 3)
         path = self.out / "fls/objects/000002.json"
-        listed = json.loads(path.read_text())
-        listed["objects"][1]["fan"] = {"mask": counts_of(mask)}
-        path.write_text(json.dumps(listed))
+        with edited(path) as listed:
+            listed["objects"][1]["fan"] = {"mask": counts_of(mask)}
         self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0")
         number, *values = (self.dest / "labels/train/fls-000002.txt").read_text().splitlines()[0].split()
         corners = np.array(values, float).reshape(4, 2) * (WIDTH, HEIGHT)
@@ -334,8 +327,8 @@ class Export(tool.ToolTest):
         self.assertLess(area, np.prod(widths, axis=0).min() + 0.05)
         self.assertLess(area, 0.6 * np.prod(box_of(mask)[2:]))
         self.refused("--oriented takes --format yolo", "--format", "coco", "--oriented")
-        listed["objects"][1]["fan"] = {"mask": counts_of(mask & (columns >= 15) | (rows + columns < 3))}    # at the border
-        path.write_text(json.dumps(listed))
+        with edited(path) as listed:
+            listed["objects"][1]["fan"] = {"mask": counts_of(mask & (columns >= 15) | (rows + columns < 3))}    # at the border
         dest = self.folder / "border"
         self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0", dest=dest)
         numbers = [float(number) for path in dest.rglob("fls-*.txt") for line in path.read_text().splitlines()
@@ -367,15 +360,15 @@ class Export(tool.ToolTest):
 
     def test_raw_values_as_fans(self):
         """A fan of raw/ has at each pixel the bin that the fan of its bins' numbers names."""
-        path = self.out / "dataset.json"
-        description = json.loads(path.read_text())
-        own = description["sensors"][0]
+        raw_fans = "--format", "yolo", "--image", "raw", "--sensor", "fls"
+        self.refused("has no raw; leave out --image", *raw_fans)
         bins = np.arange(120 * 60).reshape(120, 60)
         edges = {"range_edges_m": np.linspace(1, 13, 121).tolist(), "azimuth_edges_rad": np.linspace(-0.6, 0.6, 61).tolist()}
         width, height = 2 * 13 * np.sin(0.6), 13
-        own.update(edges, fan={"width_px": 80, "height_px": int(np.ceil(height * 80 / width))},
-                   files={**own["files"], "raw": "fls/raw/%06d.png"})
-        path.write_text(json.dumps(description))
+        with edited(self.out / "dataset.json") as description:
+            own = description["sensors"][0]
+            own.update(edges, fan={"width_px": 80, "height_px": int(np.ceil(height * 80 / width))})
+            own["files"]["raw"] = "fls/raw/%06d.png"
         (self.out / "fls/raw").mkdir()
         of_bins = open_dataset(self.out)["fls"].to_fan(bins, 80, -1)
         for ping in range(PINGS):
@@ -387,19 +380,13 @@ class Export(tool.ToolTest):
                 raw = (bins * 9 % (largest + 1)).astype(np.uint8 if bits <= 8 else np.uint16)
                 Image.fromarray(raw).save(self.out / f"fls/raw/{ping:06}.png")
             dest = self.folder / f"bits{bits}"
-            self.export(self.out, "--format", "yolo", "--sensor", "fls", "--image", "raw", dest=dest)
+            self.export(self.out, *raw_fans, dest=dest)
             found = np.asarray(Image.open(next(dest.rglob("fls-000002.png"))))
             np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, np.floor(255 * (of_bins * 9 % (largest + 1)) / largest + 0.5)))
         self.assertLess((found == 0).mean(), 0.5)
-        without_fan = json.loads(json.dumps(description))
-        without_fan["sensors"][0].pop("fan")
-        without_fan["sensors"][0]["files"].pop("fan")
-        path.write_text(json.dumps(without_fan))
-        self.refused("has no fans; set output.fan: true .* or take the pictures of its bins with --bins",
-                     "--format", "yolo", "--image", "raw", "--sensor", "fls")
-        own["files"].pop("raw")
-        path.write_text(json.dumps(description))
-        self.refused("has no raw; leave out --image", "--format", "yolo", "--image", "raw", "--sensor", "fls")
+        with edited(self.out / "dataset.json") as description:
+            del description["sensors"][0]["fan"], description["sensors"][0]["files"]["fan"]
+        self.refused("has no fans; set output.fan: true .* or take the pictures of its bins with --bins", *raw_fans)
 
     def test_masks_and_webdataset(self):
         self.export(self.out, "--format", "masks", "--sensor", "fls")

@@ -200,10 +200,8 @@ class Pings(tool.ToolTest):
                              "is not a file that this mission read")):
             self.assert_refused("export", text, self.rendered, self.folder / "dest", "--format", *words)
         shutil.copytree(self.rendered, self.folder / "less")
-        path = self.folder / "less/dataset.json"
-        description = json.loads(path.read_text())
-        for one in description["sensors"]:
-            one["files"].pop("elevation", None)
-        path.write_text(json.dumps(description))
+        with tool.edited(self.folder / "less/dataset.json") as description:
+            for one in description["sensors"]:
+                one["files"].pop("elevation", None)
         self.assert_refused("export", r"set output.labels: \[elevation, instance, class\]", self.folder / "less",
                             self.folder / "dest", "--format", "points", "--sensor", "fls")

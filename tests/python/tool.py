@@ -1,4 +1,6 @@
 """Runs a tool of the package, and makes what several tests read."""
+import contextlib
+import json
 import multiprocessing
 import os
 import pathlib
@@ -73,6 +75,14 @@ class ToolTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
         self.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+
+@contextlib.contextmanager
+def edited(path):
+    """The content of a JSON file, to be changed."""
+    content = json.loads(path.read_text())
+    yield content
+    path.write_text(json.dumps(content))
 
 
 def disc(width, height, x, y, radius):
