@@ -28,6 +28,7 @@ struct MultipathConfig {
     /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
+    bool operator==(const MultipathConfig&) const = default;
 };
 
 /// The order in which the beams of a fan transmit: a group holds neighbouring beams (in_turn), or
