@@ -19,25 +19,19 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
     command.footer(text);
 }
 
-/// Adds a subcommand to a group of --help.
-inline CLI::App& add_command(CLI::App& app, const char* name, const char* meaning,
-                             const char* group, std::initializer_list<const char*> examples) {
-    CLI::App& command = *app.add_subcommand(name, meaning)->group(group);
-    add_examples(command, examples);
-    return command;
-}
-
-/// The same with the arguments of `run`, which live as long as the subcommand. Its callback starts
-/// the log and stores the exit code of `run`.
+/// Adds a subcommand to a group of --help, with the arguments of `run`, which live as long as the
+/// subcommand. Its callback starts the log, if it has options of it, and stores the exit code of
+/// `run`.
 template <class Arguments>
 std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, int& exit_code, const char* name,
                                              const char* meaning, const char* group,
                                              std::initializer_list<const char*> examples,
                                              int (*run)(const Arguments&)) {
-    CLI::App& command = add_command(app, name, meaning, group, examples);
+    CLI::App& command = *app.add_subcommand(name, meaning)->group(group);
+    add_examples(command, examples);
     const auto arguments = std::make_shared<Arguments>();
     command.callback([arguments, run, &exit_code] {
-        start_logging(arguments->log);
+        if constexpr (requires { arguments->log; }) start_logging(arguments->log);
         exit_code = run(*arguments);
     });
     return {command, *arguments};

@@ -1,12 +1,9 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <memory>
-
 #include "commands.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "input/mission/reference.h"
-#include "logging.h"
 #include "run/checks/warning.h"
 #include "simulate/sonar/kinds.h"
 
@@ -65,6 +62,24 @@ std::vector<SectionReference> with_text(std::vector<SectionReference> sections,
     return sections;
 }
 
+struct KeysArguments {
+    std::string text;  ///< "": every key
+    bool json = false;
+};
+
+int print_keys(const KeysArguments& arguments) {
+    const std::vector<SectionReference> sections = mission_reference(sonar_keys());
+    if (arguments.json) {
+        Json schema = reference_schema(sections, sonar_keys());
+        // Editors skip what a schema does not define.
+        schema["sections"] = reference_json(sections);
+        fmt::print("{}\n", schema.dump(1));
+    } else {
+        fmt::print("{}", reference_markdown(with_text(sections, arguments.text)));
+    }
+    return exit_done;
+}
+
 }  // namespace
 
 /// For scripts/write_keys.sh, which puts the table into docs/warnings.md; --help does not list it.
@@ -78,26 +93,14 @@ void add_warnings(CLI::App& app, int& exit_code) {
 }
 
 void add_keys(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "keys", "Prints every key of a mission with its default, range and meaning", "Learn",
-        {"sonarsim keys noise", "sonarsim keys --json > sonarsim.schema.json"});
-    auto json = std::make_shared<bool>(false);
-    auto text = std::make_shared<std::string>();
-    command.add_option("text", *text, "A part of the key's path, as noise (default: every key)");
-    command.add_flag("--json", *json,
+    auto [command, arguments] = add_command(
+        app, exit_code, "keys", "Prints every key of a mission with its default, range and meaning",
+        "Learn", {"sonarsim keys noise", "sonarsim keys --json > sonarsim.schema.json"},
+        print_keys);
+    command.add_option("text", arguments.text,
+                       "A part of the key's path, as noise (default: every key)");
+    command.add_flag("--json", arguments.json,
                      "Prints a JSON Schema, for editors that complete and check missions");
-    command.callback([json, text, &exit_code] {
-        const std::vector<SectionReference> sections = mission_reference(sonar_keys());
-        if (*json) {
-            Json schema = reference_schema(sections, sonar_keys());
-            // Editors skip what a schema does not define.
-            schema["sections"] = reference_json(sections);
-            fmt::print("{}\n", schema.dump(1));
-        } else {
-            fmt::print("{}", reference_markdown(with_text(sections, *text)));
-        }
-        exit_code = exit_done;
-    });
 }
 
 }  // namespace sonarsim

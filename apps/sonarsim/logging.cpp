@@ -148,6 +148,10 @@ std::string result_line(std::string_view head, const std::string& rest) {
     return fmt::format("{:<12}{}\n", head, printable(rest));
 }
 
+void print_result(std::string_view head, const std::string& rest) {
+    fmt::print("{}", result_line(head, rest));
+}
+
 std::string duration_text(double seconds) {
     const auto whole = std::llround(seconds);
     if (whole < 60) return fmt::format("{} s", whole);

@@ -42,6 +42,9 @@ std::string warning_line(const LogOptions& options, const std::string& message);
 /// A line of a result for people: "mission     hull". Control characters are masked.
 std::string result_line(std::string_view head, const std::string& rest);
 
+/// Prints it.
+void print_result(std::string_view head, const std::string& rest);
+
 /// A duration as text: "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 

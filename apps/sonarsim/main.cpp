@@ -17,7 +17,6 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "logging.h"
 #include "output/format/png.h"
 
 namespace {
@@ -81,19 +80,12 @@ int run(int argc, char** argv) {
     app.failure_message(usage_message);
     int exit_code = exit_done;
     // In the order of the groups of --help.
-    add_new(app, exit_code);
-    add_render(app, exit_code);
-    add_merge(app, exit_code);
-    add_preview(app, exit_code);
-    add_inspect(app, exit_code);
-    add_validate(app, exit_code);
-    add_verify(app, exit_code);
-    add_status(app, exit_code);
-    add_report(app, exit_code);
+    for (const auto add : {add_new, add_render, add_merge, add_preview, add_inspect, add_validate,
+                           add_verify, add_status, add_report})
+        add(app, exit_code);
     add_python_tools(app);
-    add_preset(app, exit_code);
-    add_keys(app, exit_code);
-    add_warnings(app, exit_code);
+    for (const auto add : {add_preset, add_keys, add_warnings})
+        add(app, exit_code);
     add_examples(app, {"sonarsim render mission.yaml", "sonarsim render --help"});
     try {
         app.parse(argc, argv);
@@ -105,9 +97,8 @@ int run(int argc, char** argv) {
 
 /// Flushes the output, since a full disk may show only then.
 void finish_printing() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
-    }
 }
 
 }  // namespace

@@ -256,17 +256,17 @@ int make_mission(const NewArguments& arguments) {
     write_new(out, mission_text(arguments, mesh, csv, materials.default_material, at));
     if (!arguments.log.prints_result()) return exit_done;
     const std::string name = out.string();
-    fmt::print("{}{}", result_line("mission", name),
-               result_line("materials", csv.lexically_proximate(fs::current_path()).string()));
-    fmt::print("{}", result_line("size", fmt::format("{:.3g} x {:.3g} x {:.3g} m, read as ",
-                                                     size.x(), size.y(), size.z()) +
-                                             reading_of(file_of(arguments.mesh, mesh.config, {}))));
+    print_result("mission", name);
+    print_result("materials", csv.lexically_proximate(fs::current_path()).string());
+    print_result("size",
+                 fmt::format("{:.3g} x {:.3g} x {:.3g} m, read as {}", size.x(), size.y(), size.z(),
+                             reading_of(file_of(arguments.mesh, mesh.config, {}))));
     for (const std::vector<std::string>& some : {mesh.guesses, materials.guesses}) {
         for (const std::string& guess : some)
-            fmt::print("{}", result_line("guess", guess));
+            print_result("guess", guess);
     }
-    fmt::print("{}", result_line("next", "sonarsim preview " + name));
-    fmt::print("{}", result_line("", "sonarsim render " + name));
+    print_result("next", "sonarsim preview " + name);
+    print_result("", "sonarsim render " + name);
     return exit_done;
 }
 

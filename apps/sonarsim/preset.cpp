@@ -3,12 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "commands.h"
 #include "core/units.h"
 #include "input/mission/parse.h"
-#include "logging.h"
 #include "simulate/calibrated/equation/expected_echo.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
@@ -89,51 +87,39 @@ Json preset_json(const std::string& name, const Mission& mission) {
             {"noise_range_m", std::move(ranges)}};
 }
 
-std::string number(const Json& value, const char* unit) {
-    return fmt::format("{:.4g} {}", value.get<double>(), unit);
-}
-
-std::string kilohertz(const Json& hertz) {
-    return fmt::format("{:.4g} kHz", 1e-3 * hertz.get<double>());
-}
-
 void print_preset(const Json& preset) {
-    const auto print = [](const char* head, const std::string& rest) {
-        fmt::print("{}", result_line(head, rest));
-    };
+    const auto number = [&](const char* key) { return preset[key].get<double>(); };
+    const auto text = [&](const char* key) { return preset[key].get<std::string>(); };
     const auto level = [&](const char* key, const char* origin) {
-        return fmt::format("{:.1f} {}, {}", preset[key].get<double>(),
-                           preset["level_unit"].get<std::string>(),
-                           preset[origin].get<std::string>());
+        return fmt::format("{:.1f} {}, {}", number(key), text("level_unit"), text(origin));
     };
-    const bool upright = preset["grazing_angle_deg"] == 90.0;
-    print("preset", preset["preset"].get<std::string>());
-    print("frequency", kilohertz(preset["frequency_hz"]));
-    print("range", number(preset["range_max_m"], "m"));
-    print("source", level("source_level_db", "source_level"));
-    print("noise", level("noise_db", "noise"));
-    print("", fmt::format("spectrum: thermal {:.1f}, wind {:.1f} dB re 1 uPa^2/Hz",
-                          preset["thermal_noise_db"].get<double>(),
-                          preset["wind_noise_db"].get<double>()));
-    print("", "bandwidth " + kilohertz(preset["noise_bandwidth_hz"]) +
-                  ", directivity index: receiver " +
-                  number(preset["receiving_directivity_db"], "dB") + ", transmitter " +
-                  number(preset["transmitting_directivity_db"], "dB"));
-    print("full scale", level("full_scale_db", "full_scale"));
-    print("absorption", number(preset["absorption_db_per_m"], "dB/m"));
-    print("", fmt::format("Mean echo and noise are equal at (bottoms {})",
-                          upright ? "at normal incidence" : "at 20 degrees of grazing"));
-    for (const auto& [what, range] : preset["noise_range_m"].items()) {
-        print(what.c_str(), number(range, "m") + (what == "sphere" ? ", of -20 dB" : ""));
-    }
+    const bool upright = number("grazing_angle_deg") == 90.0;
+    print_result("preset", text("preset"));
+    print_result("frequency", fmt::format("{:.4g} kHz", 1e-3 * number("frequency_hz")));
+    print_result("range", fmt::format("{:.4g} m", number("range_max_m")));
+    print_result("source", level("source_level_db", "source_level"));
+    print_result("noise", level("noise_db", "noise"));
+    print_result("", fmt::format("spectrum: thermal {:.1f}, wind {:.1f} dB re 1 uPa^2/Hz",
+                                 number("thermal_noise_db"), number("wind_noise_db")));
+    print_result(
+        "", fmt::format("bandwidth {:.4g} kHz, directivity index: receiver {:.4g} dB, "
+                        "transmitter {:.4g} dB",
+                        1e-3 * number("noise_bandwidth_hz"), number("receiving_directivity_db"),
+                        number("transmitting_directivity_db")));
+    print_result("full scale", level("full_scale_db", "full_scale"));
+    print_result("absorption", fmt::format("{:.4g} dB/m", number("absorption_db_per_m")));
+    print_result("", fmt::format("Mean echo and noise are equal at (bottoms {})",
+                                 upright ? "at normal incidence" : "at 20 degrees of grazing"));
+    for (const auto& [what, range] : preset["noise_range_m"].items())
+        print_result(what, fmt::format("{:.4g} m{}", range.get<double>(),
+                                       what == "sphere" ? ", of -20 dB" : ""));
 }
 
 /// The table of docs/calibrated.md.
 std::string presets_markdown(const std::vector<Json>& presets) {
     std::string text =
         "| preset | source level | noise | directivity | band, kHz | full scale | mud, m | sand, m "
-        "| "
-        "rock, m | sphere, m | range, m |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "| rock, m | sphere, m | range, m |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Json& preset : presets) {
         const auto level = [&](const char* key, const char* origin) {
             return fmt::format("{:.1f}{}", preset[key].get<double>(),
@@ -178,7 +164,7 @@ struct PresetArguments {
     bool markdown = false;
 };
 
-void print_presets(const PresetArguments& arguments) {
+int print_presets(const PresetArguments& arguments) {
     const bool one = !arguments.name.empty();
     std::vector<Json> presets;
     for (const std::string& name : one ? std::vector{arguments.name} : shipped_presets())
@@ -190,30 +176,27 @@ void print_presets(const PresetArguments& arguments) {
     } else {
         fmt::print("{}", arguments.markdown ? presets_markdown(presets) : presets_text(presets));
     }
+    return exit_done;
 }
 
 }  // namespace
 
 void add_preset(CLI::App& app, int& exit_code) {
-    CLI::App& command = add_command(
-        app, "preset", "Prints the levels of an instrument and the ranges at which it sees",
-        "Learn",
-        {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json", "sonarsim preset"});
-    auto arguments = std::make_shared<PresetArguments>();
-    command.add_option("preset", arguments->name,
+    auto [command, arguments] = add_command(
+        app, exit_code, "preset",
+        "Prints the levels of an instrument and the ranges at which it sees", "Learn",
+        {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json", "sonarsim preset"},
+        print_presets);
+    command.add_option("preset", arguments.name,
                        "A file of a sensor's keys, or the name of a preset of configs/sensors "
                        "(default: a table of all of them)");
     command
-        .add_option("--set", arguments->settings,
+        .add_option("--set", arguments.settings,
                     "Sets a key, as water.temperature_c=20 or sensors.sonar.range_max_m=20")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
-    command.add_flag("--json", arguments->json, "Prints JSON instead of text");
-    command.add_flag("--markdown", arguments->markdown, "Prints the table of docs/calibrated.md");
-    command.callback([arguments, &exit_code] {
-        print_presets(*arguments);
-        exit_code = exit_done;
-    });
+    command.add_flag("--json", arguments.json, "Prints JSON instead of text");
+    command.add_flag("--markdown", arguments.markdown, "Prints the table of docs/calibrated.md");
 }
 
 }  // namespace sonarsim

@@ -31,14 +31,13 @@ void print_text(const JobStatus& status) {
     const double share = status.all_pings > 0 ? 100.0 * static_cast<double>(status.pings) /
                                                     static_cast<double>(status.all_pings)
                                               : 0.0;
-    fmt::print("{}{}", result_line("mission", status.mission),
-               result_line("state", state_of(status)));
+    print_result("mission", status.mission);
+    print_result("state", state_of(status));
     if (status.variants > 0)
-        fmt::print(
-            "{}", result_line("variants", fmt::format("{} of {} complete", status.complete_variants,
-                                                      status.variants)));
-    fmt::print("{}", result_line("pings", fmt::format("{} of {} ({:.1f} %)", status.pings,
-                                                      status.all_pings, share)));
+        print_result("variants",
+                     fmt::format("{} of {} complete", status.complete_variants, status.variants));
+    print_result("pings",
+                 fmt::format("{} of {} ({:.1f} %)", status.pings, status.all_pings, share));
 }
 
 int status(const StatusArguments& arguments) {
