@@ -94,9 +94,8 @@ Json shares_json(const std::vector<std::string>& names, const std::vector<std::u
     for (const std::uint32_t owner : owners)
         ++triangles[owner];
     Json json = Json::array();
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i)
         json.push_back({{"name", names[i]}, {"triangles", triangles[i]}});
-    }
     return json;
 }
 

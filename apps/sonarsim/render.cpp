@@ -17,7 +17,6 @@
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "run/job/variants.h"
-#include "shard.h"
 #include "signals.h"
 
 namespace sonarsim {
@@ -69,9 +68,8 @@ void print_table(const RenderSummary& summary) {
     for (const auto& stage : stages)
         sum += stage.second;
     fmt::print("pings       {:>8}\npings/s     {:>8.0f}\n", summary.pings, pings_per_s(summary));
-    for (const auto& [name, seconds] : stages) {
+    for (const auto& [name, seconds] : stages)
         fmt::print("{:<12}{:>6.1f} %\n", name, sum > 0.0 ? 100.0 * seconds / sum : 0.0);
-    }
 }
 
 void print_json(const RenderSummary& summary, const Mission& mission,

@@ -59,22 +59,20 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
 int report(const ReportArguments& arguments) {
     const Mission whole = load(arguments.mission);
     const Mission mission = without_water_echoes(whole);
-    if (mission.variants > 0) {
-        throw InputError({arguments.mission.file.string()},
+    const Location where{arguments.mission.file.string()};
+    if (mission.variants > 0)
+        throw InputError(where,
                          "the report measures one scene, and this mission has variants; give it "
                          "the mission.resolved.yaml of one of them, or --set variants=0 --set "
                          "vary=[]");
-    }
     const Assembly assembly = assemble(mission);
-    if (!assembly.scene.bodies.empty()) {
-        throw InputError({arguments.mission.file.string()},
+    if (!assembly.scene.bodies.empty())
+        throw InputError(where,
                          "the report measures scenes that stand still; leave the trajectories of "
                          "objects out");
-    }
-    if (assembly.scene.sound_profile) {
-        throw InputError({arguments.mission.file.string()},
+    if (assembly.scene.sound_profile)
+        throw InputError(where,
                          "the report measures straight paths of sound; leave water.profile out");
-    }
     log_warnings(reading_warnings(assembly.scene));
 
     ReportOptions options = arguments.report;
