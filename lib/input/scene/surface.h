@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sonarsim {
@@ -26,17 +27,17 @@ inline Surface moved(const Surface& surface, const Eigen::Affine3d& T_world_surf
     return out;
 }
 
-inline Eigen::AlignedBox2d box_from_above(const std::array<Eigen::Vector3d, 3>& corners) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector3d& corner : corners)
-        box.extend(corner.head<2>());
-    return box;
-}
-
 inline Eigen::AlignedBox3d box_of(const Surface& surface) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : surface.vertices)
         box.extend(vertex);
+    return box;
+}
+
+inline Eigen::AlignedBox2d box_from_above(std::span<const Eigen::Vector3d> points) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector3d& point : points)
+        box.extend(point.head<2>());
     return box;
 }
 

@@ -72,12 +72,9 @@ std::vector<std::uint32_t> looked_at(const LookAtTrajectoryConfig& config,
             is_known = true;
         }
         if (is_known || (name == all_objects && classes.size() > 1)) continue;
-        std::string all;
-        for (const std::string& one : classes)
-            all += (all.empty() ? "" : ", ") + printable(one);
         throw InputError("trajectory.look_at: the scene has no object at rest of '" +
                          printable(name) + "' that is no background" + did_you_mean(name, classes) +
-                         "; there are: " + all);
+                         "; there are: " + printable(listed(classes)));
     }
     return small.empty() ? chosen : small;
 }

@@ -1,7 +1,6 @@
 #include "simulate/assembly/mission_objects.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -69,11 +68,10 @@ std::optional<std::size_t> class_index(const SceneObjects& objects, const std::s
 std::size_t class_named(const Mission& mission, const SceneObjects& objects, const char* key,
                         const std::string& name) {
     if (const auto index = class_index(objects, name)) return *index;
-    std::vector<std::string> all;
-    std::ranges::transform(objects.classes, std::back_inserter(all), printable);
     throw InputError(mission.labels.place,
                      std::string("labels.") + key + ": there is no class '" + printable(name) +
-                         "'" + did_you_mean(name, objects.classes) + "; there are: " + listed(all));
+                         "'" + did_you_mean(name, objects.classes) +
+                         "; there are: " + printable(listed(objects.classes)));
 }
 
 /// The instances whose number is drawn, and their classes.

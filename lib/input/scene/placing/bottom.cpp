@@ -49,7 +49,7 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
 
 Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
     const Eigen::AlignedBox3d all = box_of(surface_);
-    area_ = {all.min().head<2>(), all.max().head<2>()};
+    area_ = box_from_above(surface_.vertices);
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
     side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, max_cells);
     while (side_ > 1 && places_of_triangles() > max_places)

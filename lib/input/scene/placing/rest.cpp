@@ -44,8 +44,7 @@ double rise_of(const Corners& object, const Corners& ground) {
 double top_near(const Bottom& bottom, const Surface& object) {
     double highest = -std::numeric_limits<double>::infinity();
     if (object.vertices.empty()) return highest;
-    const Eigen::AlignedBox3d box = box_of(object);
-    bottom.for_each_near({box.min().head<2>(), box.max().head<2>()}, [&](std::uint32_t near) {
+    bottom.for_each_near(box_from_above(object.vertices), [&](std::uint32_t near) {
         for (const Eigen::Vector3d& corner : corners_of(bottom.surface(), near))
             highest = std::max(highest, corner.z());
     });

@@ -53,10 +53,6 @@ std::size_t count_of(const ScatterConfig& rule, std::uint64_t seed, std::uint32_
 
 constexpr int max_tries = 1000;  // positions for each object
 
-std::array<double, 2> in_radians(const std::array<double, 2>& deg) {
-    return {radians(deg[0]), radians(deg[1])};
-}
-
 /// The area of a rule; that of the bottom if it has none.
 Eigen::AlignedBox2d area_of(const ScatterConfig& rule, const Bottom& bottom) {
     if (!rule.area_min_m) return bottom.area();
@@ -141,9 +137,12 @@ std::optional<Placed> place_one(const ScatterConfig& rule, std::span<const Surfa
                                 std::size_t count) {
     const std::size_t chosen = one_of(shapes.size(), draws, Draw::shape);
     const Surface& shape = *shapes[chosen];
-    Stance stance{.rotation = rotation_from_rpy(draws.in(in_radians(rule.roll_deg), Draw::roll),
-                                                draws.in(in_radians(rule.pitch_deg), Draw::pitch),
-                                                draws.in(in_radians(rule.yaw_deg), Draw::yaw)),
+    const auto angle = [&](const std::array<double, 2>& deg, Draw what) {
+        return draws.in({radians(deg[0]), radians(deg[1])}, what);
+    };
+    Stance stance{.rotation = rotation_from_rpy(angle(rule.roll_deg, Draw::roll),
+                                                angle(rule.pitch_deg, Draw::pitch),
+                                                angle(rule.yaw_deg, Draw::yaw)),
                   .scale = draws.in(rule.scale, Draw::scale, redraw),
                   .align = rule.align,
                   .bury_m = draws.in(rule.bury_m, Draw::bury, redraw)};
@@ -152,16 +151,14 @@ std::optional<Placed> place_one(const ScatterConfig& rule, std::span<const Surfa
     const Surface turned = moved(shape, upright);
     stance.bury_m += draws.in(rule.bury, Draw::share, redraw) * box_of(turned).sizes().z();
     const Hull outline = hull_of(turned.vertices);
-    const Attempt attempt{rule, area_of(rule, bottom), bottom, taken, shape, stance, outline};
-    const Eigen::Vector2d low = attempt.area.min();
-    const Eigen::Vector2d high = attempt.area.max();
-
+    const Eigen::AlignedBox2d area = area_of(rule, bottom);
+    const Attempt attempt{rule, area, bottom, taken, shape, stance, outline};
     Refusals refusals;
     std::optional<Placed> found;
     for (int i = 0; i < max_tries && !found; ++i) {
         const auto n = static_cast<std::uint32_t>(i);
-        const Eigen::Vector2d position(draws.in({low.x(), high.x()}, Draw::x, n),
-                                       draws.in({low.y(), high.y()}, Draw::y, n));
+        const Eigen::Vector2d position(draws.in({area.min().x(), area.max().x()}, Draw::x, n),
+                                       draws.in({area.min().y(), area.max().y()}, Draw::y, n));
         found = try_at(position, chosen, attempt, refusals);
     }
     if (!found) give_up(rule, number, count, refusals);
@@ -215,9 +212,8 @@ std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface
     };
     Eigen::Affine3d T_world_shape = at(stance.rotation);
     if (stance.align) {
-        const Eigen::AlignedBox3d box = box_of(moved(shape, T_world_shape));
-        const Eigen::AlignedBox2d below(box.min().head<2>(), box.max().head<2>());
-        T_world_shape = at(slope_of(bottom, below) * stance.rotation);
+        const Surface level = moved(shape, T_world_shape);
+        T_world_shape = at(slope_of(bottom, box_from_above(level.vertices)) * stance.rotation);
     }
     const auto lift = lift_to_rest(bottom, moved(shape, T_world_shape));
     if (!lift) return std::nullopt;
