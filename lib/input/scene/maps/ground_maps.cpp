@@ -32,16 +32,12 @@ std::optional<std::size_t> texel_at(const TexelFrame& frame, const Eigen::Vector
 }
 
 /// The box in texels around a point of the world that reaches `half_m` to all sides.
-TexelBox box_around(const TexelFrame& frame, const Eigen::Vector2d& world,
-                    const Eigen::Vector2d& half_m) {
+Eigen::AlignedBox2d box_around(const TexelFrame& frame, const Eigen::Vector2d& world,
+                               const Eigen::Vector2d& half_m) {
     const Eigen::Vector2d at = frame.texels(world);
     const Eigen::Vector2d half =
         half_m.cwiseProduct(frame.per_m.cwiseAbs()).cwiseMax(0.5 * min_box_texels);
-    return {at.x() - half.x(), at.x() + half.x(), at.y() - half.y(), at.y() + half.y()};
-}
-
-double area_of(const TexelBox& box) {
-    return (box.x_max - box.x_min) * (box.y_max - box.y_min);
+    return {at - half, at + half};
 }
 
 /// The distance that a footprint reaches from its centre along x and y.
@@ -50,17 +46,10 @@ Eigen::Vector2d reach_m(const GroundFootprint& footprint) {
 }
 
 /// True if a box lies within one texel, or wholly beyond the image.
-bool is_within_texel(const TexelFrame& frame, const TexelBox& box) {
-    const bool beyond = box.x_max <= 0.0 || box.y_max <= 0.0 || box.x_min >= frame.width ||
-                        box.y_min >= frame.height;
-    return beyond || (std::floor(box.x_min) == std::floor(box.x_max) &&
-                      std::floor(box.y_min) == std::floor(box.y_max));
-}
-
-/// The smallest box of whole texels around a box.
-TexelBox whole_texels(const TexelBox& box) {
-    return {std::floor(box.x_min), std::ceil(box.x_max), std::floor(box.y_min),
-            std::ceil(box.y_max)};
+bool is_within_texel(const TexelFrame& frame, const Eigen::AlignedBox2d& box) {
+    const bool beyond = (box.max().array() <= 0.0).any() || box.min().x() >= frame.width ||
+                        box.min().y() >= frame.height;
+    return beyond || (box.min().array().floor() == box.max().array().floor()).all();
 }
 
 /// Boxes in a row that represent a footprint.
@@ -148,16 +137,16 @@ std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, s
                                                        const GroundFootprint& footprint) const {
     if (!has_materials(instance)) return own;
     const TexelFrame& frame = materials_->frame;
-    const TexelBox box = box_around(frame, footprint.centre, reach_m(footprint));
+    const Eigen::AlignedBox2d box = box_around(frame, footprint.centre, reach_m(footprint));
     const auto texel = texel_at(frame, frame.texels(footprint.centre));
     const bool is_own = !texel || materials_->choice[*texel] == MaterialTexels::own;
     const std::uint32_t here = is_own ? own : materials_->materials[materials_->choice[*texel]];
     if (is_within_texel(frame, box)) return here;
-    const TexelBox whole = whole_texels(box);
+    const Eigen::AlignedBox2d whole(box.min().array().floor(), box.max().array().ceil());
     // If no texel of the box has a material of the map, the ground's own material fills the box.
     const bool is_alike =
         is_own ? std::ranges::all_of(counts_, [&](const auto& c) { return c.over(whole) == 0.0; })
-               : counts_[materials_->choice[*texel]].over(whole) >= area_of(whole);
+               : counts_[materials_->choice[*texel]].over(whole) >= whole.volume();
     return is_alike ? std::optional(here) : std::nullopt;
 }
 
@@ -177,13 +166,13 @@ std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::u
 
 double GroundMaps::factor_over(const Eigen::Vector2d& world, const Eigen::Vector2d& half_m) const {
     const TexelFrame& frame = strengths_->frame;
-    const TexelBox box = box_around(frame, world, half_m);
+    const Eigen::AlignedBox2d box = box_around(frame, world, half_m);
     if (is_within_texel(frame, box)) {
         const auto texel = texel_at(frame, frame.texels(world));
         return texel ? static_cast<double>(strengths_->factor[*texel]) : 1.0;
     }
     // Rounding may make a factor near 0 slightly negative.
-    return std::max(0.0, 1.0 + gains_.over(box) / area_of(box));
+    return std::max(0.0, 1.0 + gains_.over(box) / box.volume());
 }
 
 void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
@@ -205,8 +194,8 @@ void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
     for (int k = 0; k < probes.count; ++k) {
         const Eigen::Vector2d world = probes.first + k * probes.step;
         const double factor = varies ? factor_over(world, half_m) : 1.0;
-        const TexelBox box = box_around(materials_->frame, world, half_m);
-        const double per_area = 1.0 / area_of(box);
+        const Eigen::AlignedBox2d box = box_around(materials_->frame, world, half_m);
+        const double per_area = 1.0 / box.volume();
         double left = 1.0;
         for (std::size_t m = 0; m < counts_.size(); ++m) {
             const double share = std::min(counts_[m].over(box) * per_area, left);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,13 +11,9 @@
 
 namespace sonarsim {
 
-/// A box in texels: texel (row, column) fills [column, column + 1] x [row, row + 1].
-struct TexelBox {
-    double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
-};
-
 /// Sums of an image's texels over boxes of any size, in constant time: a summed-area table (F. C.
-/// Crow, SIGGRAPH 1984). With S(x, y), the sum of the texels left of x and above y, a box has
+/// Crow, SIGGRAPH 1984). Texel (row, column) fills [column, column + 1] x [row, row + 1]. With
+/// S(x, y), the sum of the texels left of x and above y, a box has
 /// S(x1, y1) - S(x0, y1) - S(x1, y0) + S(x0, y0). Within a texel S rises bilinearly, so that
 /// interpolation between whole numbers gives the exact integral over boxes that cut texels.
 template <class T>
@@ -41,11 +37,11 @@ class TexelSums {
     }
 
     /// The integral over a box. Beyond the image all is 0.
-    double over(const TexelBox& box) const {
-        const Place west = place(box.x_min, width_);
-        const Place east = place(box.x_max, width_);
-        const Place north = place(box.y_min, height_);
-        const Place south = place(box.y_max, height_);
+    double over(const Eigen::AlignedBox2d& box) const {
+        const Place west = place(box.min().x(), width_);
+        const Place east = place(box.max().x(), width_);
+        const Place north = place(box.min().y(), height_);
+        const Place south = place(box.max().y(), height_);
         return (before(east, south) - before(west, south)) -
                (before(east, north) - before(west, north));
     }

@@ -54,8 +54,7 @@ class Borders {
     void append(std::size_t part, const std::array<std::uint32_t, 3>& triangle, std::uint32_t a,
                 std::uint32_t b, std::uint32_t c) {
         std::vector<std::uint32_t>& corners = ground_.corners[index_of(part, triangle)];
-        for (const std::uint32_t corner : {a, b, c})
-            corners.push_back(corner);
+        corners.insert(corners.end(), {a, b, c});
     }
 
     /// The index into `corners` for the part of a triangle in one sediment: that of a mixture if

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/elementary.h"
 #include "core/units.h"
@@ -61,14 +62,13 @@ class Lattice {
 
     const float* row(std::int64_t number) {
         Row& kept = rows_[static_cast<std::size_t>(((number % taps) + taps) % taps)];
-        if (!kept.known || kept.number != number) draw(number, kept);
+        if (kept.number != number) draw(number, kept);
         return kept.values.data();
     }
 
   private:
     struct Row {
-        bool known = false;
-        std::int64_t number = 0;
+        std::optional<std::int64_t> number = {};
         std::vector<float> values = {};
     };
 
@@ -86,7 +86,6 @@ class Lattice {
             row.values[4 * k + 2] = b.first;
             row.values[4 * k + 3] = b.second;
         }
-        row.known = true;
         row.number = number;
     }
 
