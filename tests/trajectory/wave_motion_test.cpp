@@ -1,5 +1,5 @@
 #include "core/pose.h"
-#include "input/trajectory/pose_changes.h"
+#include "input/trajectory/patterns.h"
 #include "support/test.h"
 
 namespace sonarsim {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -155,15 +156,10 @@ std::size_t sharing_threshold(EngineKind engine) {
     return may_be_rays ? many_triangles : share_nothing;
 }
 
-/// The materials and the placed files of a scene.
-struct PlacedScene {
-    MaterialTable materials;
-    SceneParts parts;
-};
-
 /// Sets the trajectory and the sonars, and places the scene.
-PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneStore& models,
-                  bool places_only, Assembly& assembly) {
+std::pair<MaterialTable, SceneParts> place(const Mission& mission, const EngineSettings& settings,
+                                           SceneStore& models, bool places_only,
+                                           Assembly& assembly) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     for (const SonarConfig& sensor : mission.sensors)

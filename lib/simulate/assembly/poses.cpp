@@ -15,7 +15,6 @@
 #include "input/mission/ping_draws.h"
 #include "input/trajectory/files.h"
 #include "input/trajectory/patterns.h"
-#include "input/trajectory/pose_changes.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
