@@ -66,21 +66,20 @@ HeightGrid transposed(const HeightGrid& grid) {
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
 std::vector<std::uint32_t> corners_of_cells(const HeightGrid& heights, bool mirrored) {
-    const std::size_t width = heights.columns;
-    const std::size_t height = heights.rows;
-    const auto known = [&](std::size_t k) { return !std::isnan(heights.values[k]); };
+    const auto width = static_cast<std::uint32_t>(heights.columns);
+    const auto height = static_cast<std::uint32_t>(heights.rows);
+    const auto known = [&](std::uint32_t k) { return !std::isnan(heights.values[k]); };
     std::vector<std::uint32_t> corners;
-    corners.reserve(6 * (width - 1) * (height - 1));
-    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    corners.reserve(6 * (heights.columns - 1) * (heights.rows - 1));
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (!known(a) || !known(b) || !known(c)) return;
         if (mirrored) std::swap(b, c);
-        for (const std::size_t corner : {a, b, c})
-            corners.push_back(static_cast<std::uint32_t>(corner));
+        corners.insert(corners.end(), {a, b, c});
     };
-    for (std::size_t row = 0; row + 1 < height; ++row) {
-        for (std::size_t column = 0; column + 1 < width; ++column) {
-            const std::size_t north_west = row * width + column;
-            const std::size_t south_west = north_west + width;
+    for (std::uint32_t row = 0; row + 1 < height; ++row) {
+        for (std::uint32_t column = 0; column + 1 < width; ++column) {
+            const std::uint32_t north_west = row * width + column;
+            const std::uint32_t south_west = north_west + width;
             if (known(north_west) && known(south_west + 1)) {
                 add(north_west, south_west, south_west + 1);
                 add(north_west, south_west + 1, north_west + 1);
@@ -113,14 +112,14 @@ void require_room(const HeightGrid& heights, std::size_t across, std::size_t dow
 
 void require_heights(const Image& image, const Location& where) {
     if (image.channels != 1) {
-        throw InputError(where, "has " + std::to_string(image.channels) +
-                                    " channels, and a heightmap has one: take one out, as with "
-                                    "gdal_translate -b 1");
+        throw InputError(where,
+                         fmt::format("has {} channels, and a heightmap has one: take one out, "
+                                     "as with gdal_translate -b 1",
+                                     image.channels));
     }
     if (image.width < 2 || image.height < 2) {
-        throw InputError(where, "has " + std::to_string(image.width) + " x " +
-                                    std::to_string(image.height) +
-                                    " pixels, and a surface needs 2 x 2");
+        throw InputError(where, fmt::format("has {} x {} pixels, and a surface needs 2 x 2",
+                                            image.width, image.height));
     }
 }
 
