@@ -146,7 +146,8 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
         fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
     const std::optional<PingError> worst = error->worst();
     if (!worst) return result_line("", "error " + limit);
-    const std::vector<PingError> measured = error->measured();
+    std::vector<PingError> measured = error->pings;
+    std::erase_if(measured, [](const PingError& ping) { return !ping.relative_l1; });
     std::string text =
         fmt::format("error {} % on average and {} % at worst in {} pings, goal {} %",
                     short_text(100.0 * *error->mean()), short_text(100.0 * *worst->relative_l1),
