@@ -158,8 +158,8 @@ std::size_t sharing_threshold(EngineKind engine) {
 
 /// Sets the trajectory and the sonars, and places the scene.
 std::pair<MaterialTable, SceneParts> place(const Mission& mission, const EngineSettings& settings,
-                                           SceneStore& models, bool places_only,
-                                           Assembly& assembly) {
+                                           SceneStore& models, Assembly& assembly,
+                                           bool places_only = false) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     for (const SonarConfig& sensor : mission.sensors)
@@ -178,7 +178,8 @@ std::pair<MaterialTable, SceneParts> place(const Mission& mission, const EngineS
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
     add_ping_motions(mission, assembly.trajectory, assembly.sonars);
-    return {std::move(materials), place_scene(mission, models, places_only, assembly)};
+    return {std::move(materials),
+            place_scene(mission, assembly.trajectory, assembly.sonars, models, places_only)};
 }
 
 SceneObjects objects_of(const Mission& mission, const Scene& scene) {
@@ -190,8 +191,8 @@ SceneObjects objects_of(const Mission& mission, const Scene& scene) {
 
 /// Finds the poses that depend on the scene: of `trajectory.look_at`, before targets are scattered
 /// in the water around them, and of a lawnmower above the ground.
-void find_poses(const Mission& mission, Assembly& assembly) {
-    keep_altitude(mission, assembly.bottom.get(), assembly.trajectory);
+void find_poses(const Mission& mission, const Bottom* bottom, Assembly& assembly) {
+    keep_altitude(mission, bottom, assembly.trajectory);
     if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
         const Scene& scene = assembly.scene;
         const auto fan = std::ranges::find_if(assembly.sonars, [](const Sonar& sonar) {
@@ -214,7 +215,7 @@ Assembly assemble(const Mission& mission) {
 
 void check_places(const Mission& mission, SceneStore& models) {
     Assembly assembly;
-    place(mission, engine_settings(mission), models, true, assembly);
+    place(mission, engine_settings(mission), models, assembly, true);
 }
 
 Assembly assemble(const Mission& mission, SceneStore& models) {
@@ -225,19 +226,22 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
     // 1. The trajectory, the sonars and the materials; then the places of the scene's files.
     const EngineSettings settings = engine_settings(mission);
-    auto [materials, parts] = place(mission, settings, models, false, assembly);
+    auto [materials, parts] = place(mission, settings, models, assembly);
     // 2. The scene. Where all of it moves, its motions bound it.
     for (PlacedFile& file : parts.files)
         file.parts = parts_of(mission, file);
     scene = load_scene(parts.files, models, materials, mission.scene.material_default, water,
                        sharing_threshold(settings.type));
-    place_moving_scene(assembly.trajectory, assembly.motions, scene);
+    place_moving_scene(assembly.trajectory, parts.motions, scene);
     // 3. Poses that look at the scene, before particles are drawn around them.
-    find_poses(mission, assembly);
+    find_poses(mission, parts.bottom.get(), assembly);
     // 4. Maps of the ground, which replace materials.
     apply_ground_maps(mission.scene, materials, water, scene);
     if (mission.scene.heightmap) assembly.epsg = epsg_of(mission.scene.heightmap->file);
     std::ranges::move(parts.orientation_warnings, std::back_inserter(scene.warnings));
+    assembly.motions = std::move(parts.motions);
+    assembly.bottom = std::move(parts.bottom);
+    assembly.seabed = std::move(parts.seabed);
     // 5. The water: its surface, whose warning needs all poses, what swims in it, its layers.
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, scene, assembly.sonars);

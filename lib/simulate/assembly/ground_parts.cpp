@@ -10,6 +10,7 @@
 #include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/sound_profiles.h"
+#include "simulate/water/sound_profile.h"
 
 namespace sonarsim {
 

@@ -207,8 +207,8 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
 
 }  // namespace
 
-SceneParts place_scene(const Mission& mission, SceneStore& models, bool places_only,
-                       Assembly& assembly) {
+SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
+                       std::span<const Sonar> sonars, SceneStore& models, bool places_only) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
     if (!scene.file.empty()) {
@@ -224,10 +224,9 @@ SceneParts place_scene(const Mission& mission, SceneStore& models, bool places_o
     std::optional<PlacedFile> below_objects =
         needs_ground ? std::nullopt : bed_of_objects(mission, models);
     std::optional<PlacedFile> ground;
-    if (!(places_only && below_objects))
-        ground = ground_of(mission, assembly.trajectory, assembly.sonars, models);
+    if (!(places_only && below_objects)) ground = ground_of(mission, vehicle, sonars, models);
     if (ground) {
-        assembly.seabed = ground->seabed;
+        parts.seabed = ground->seabed;
         parts.files.push_back(*ground);
     }
     const LazyBottom bottom(scene, below_objects ? below_objects : ground, models);
@@ -244,7 +243,7 @@ SceneParts place_scene(const Mission& mission, SceneStore& models, bool places_o
             add_orientation_warning(up_question(file, shape), parts);
         file.T_world_file = settled_transform(object, shape, bottom, range_m);
         if (object.trajectory) {
-            assembly.motions.push_back(motion_of(object, assembly.trajectory));
+            parts.motions.push_back(motion_of(object, vehicle));
             continue;
         }
         if (bottom.is(object)) continue;
@@ -266,7 +265,7 @@ SceneParts place_scene(const Mission& mission, SceneStore& models, bool places_o
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();
     if (needs_ground && bottom.exists()) {
-        assembly.bottom = bottom.share();
+        parts.bottom = bottom.share();
         bottom.mark(parts.files);
     }
     return parts;
