@@ -19,15 +19,16 @@ inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
 inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
-inline constexpr const char* gallery_files = "index_files/";
+inline constexpr const char* gallery_folder_name = "index_files";
 /// A file in the folder above the datasets of variants.
 inline constexpr const char* variants_name = "variants.json";
 
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
-    constexpr std::array<std::string_view, 9> taken{
-        description_name,    mission_name,       trajectory_name, checksums_name, journal_name,
-        journal_folder_name, seabed_folder_name, gallery_name,    navigation_name};
+    constexpr std::array<std::string_view, 10> taken{
+        description_name, mission_name,        trajectory_name,    checksums_name,
+        journal_name,     journal_folder_name, seabed_folder_name, gallery_name,
+        navigation_name,  gallery_folder_name};
     return std::ranges::find(taken, name) != taken.end();
 }
 

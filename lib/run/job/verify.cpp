@@ -59,7 +59,8 @@ void list_strangers(const fs::path& top, const fs::path& prefix,
         const std::string name = entry->path().lexically_relative(top / prefix).string();
         const bool is_folder = entry->symlink_status().type() == fs::file_type::directory;
         // The page of sonarsim gallery is not part of the dataset.
-        const bool is_of_page = name == gallery_name || name.starts_with(gallery_files);
+        const bool is_of_page =
+            name == gallery_name || name.starts_with(gallery_folder_name + std::string("/"));
         if (expected.contains(name))
             entry.disable_recursion_pending();
         else if (!is_folder && !is_of_page)
