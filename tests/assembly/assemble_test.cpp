@@ -6,9 +6,6 @@
 #include "simulate/sonar/kinds.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A mission on disk: a concrete wall of 20 x 20 m that stands across x = 5 m.
@@ -62,7 +59,7 @@ TEST_CASE("assemble: trajectories of files and of lines, at the rate that is ask
             .trajectory;
     // Two lines of 10 m and the way between them of 5 m: 25 s.
     CHECK(survey.size() == 26);
-    CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
+    CHECK(survey.front().T_world_vehicle.translation.z() == approx(3.0));
 }
 
 TEST_CASE("assemble: a made bed is as large wherever in its file an object lies") {
@@ -165,7 +162,7 @@ TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
         "scene={seabed: {cell_m: 1, z_m: -12, size_m: [10, 10], material: concrete}, "
         "materials: materials.csv}"};
     for (const TimedPose& pose : assemble(disk.load(lines, bed)).trajectory)
-        CHECK(pose.T_world_vehicle.translation.z() == test::approx(-9.0));
+        CHECK(pose.T_world_vehicle.translation.z() == approx(-9.0));
 }
 
 TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {

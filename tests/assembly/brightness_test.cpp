@@ -4,9 +4,6 @@
 #include "support/calibrated.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 std::vector<double> scales_of(const Mission& mission) {
@@ -35,7 +32,7 @@ TEST_CASE("brightness: auto has two digits and grows with the gain") {
     mission.sensors[0].noise.gain = 50.0;
     const std::vector<double> more = scales_of(mission);
     // Without noise an intensity is proportional to the gain; a power of ten moves no digit.
-    CHECK(more[0] / half[0] == test::approx(100.0));
+    CHECK(more[0] / half[0] == approx(100.0));
     CHECK(more[1] == half[1]);
     mission.sensors[1].range_max_m = 0.11;  // the walls are farther away
     CHECK(scales_of(mission)[1] == 1.0);
@@ -62,5 +59,5 @@ TEST_CASE("brightness: water does not decide what is white in a profile") {
     mission.sensors[1].name = "coastal";
     mission.sensors[1].instrument.usual_water = WaterContent::coastal;
     const std::vector<double> scales = scales_of(mission);
-    CHECK(scales[1] / scales[0] == test::approx(1.0).epsilon(0.1));
+    CHECK(scales[1] / scales[0] == approx(1.0).epsilon(0.1));
 }

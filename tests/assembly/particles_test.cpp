@@ -5,9 +5,6 @@
 #include "simulate/sonar/sonar.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 const Trajectory three_poses{{10.0, {}}, {11.0, {}}, {12.5, {}}};
@@ -38,7 +35,7 @@ Drawn draw(const ParticlesConfig& config, std::uint64_t seed) {
     mission.seed = seed;
     mission.scene.particles = {config};
     Drawn out;
-    out.scene = shapes::empty_scene();
+    out.scene = empty_scene();
     out.scene.instances = {"floor"};
     SonarConfig sonar = default_sonar(SonarKind::imaging);
     sonar.model = ModelKind::calibrated;

@@ -5,8 +5,6 @@
 #include "simulate/trace/ping_motion.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// A vehicle that goes along x at 2 m/s.
@@ -80,8 +78,8 @@ TEST_CASE("ping motions: a scanning head has the pattern half way in time, a fan
             measured_place((*sonars[0].motions)[1], sonars[0].settings.view.shape, {10, 0, 0});
         return std::atan2(measured.y(), measured.x());
     };
-    CHECK(turned(SonarKind::imaging) == test::approx(-radians(0.8)).epsilon(1e-6));
-    CHECK(turned(SonarKind::scanning) == test::approx(-radians(0.4)).epsilon(1e-6));
+    CHECK(turned(SonarKind::imaging) == approx(-radians(0.8)).epsilon(1e-6));
+    CHECK(turned(SonarKind::scanning) == approx(-radians(0.4)).epsilon(1e-6));
 }
 
 TEST_CASE("ground in range: the mounts that are drawn for pings reach as far") {
@@ -116,6 +114,6 @@ TEST_CASE("ground in range: the last group of beams looks from further on") {
     const Trajectory vehicle = along_x();
     add_ping_motions(mission, vehicle, sonars);
     const Eigen::AlignedBox2d visible = ground_in_range(mission, sonars, vehicle, 1.0);
-    CHECK(visible.min().x() == test::approx(-10.0));
-    CHECK(visible.max().x() == test::approx(7.0 + 1.2 + 10.0));
+    CHECK(visible.min().x() == approx(-10.0));
+    CHECK(visible.max().x() == approx(7.0 + 1.2 + 10.0));
 }

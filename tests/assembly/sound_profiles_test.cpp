@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// A mission whose water has its surface at z = 3.
@@ -30,12 +28,12 @@ SoundProfile profile_of_file(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("sound profiles: depths count from the water's surface; what is wrong with a file") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const auto file = folder.path / "ctd.csv";
     write_file(file, "# cast 7\ntime,sound_speed_m_s,depth_m\na,1520,0\nb,1500,10\n");
     const SoundProfile profile = profile_of_file(file);
     CHECK(profile.speed_at(3.0) == 1520.0);
-    CHECK(profile.speed_at(-2.0) == test::approx(1510.0));
+    CHECK(profile.speed_at(-2.0) == approx(1510.0));
     CHECK(profile.speed_at(-7.0) == 1500.0);
     CHECK(profile.speed_at(-50.0) == 1500.0);
     CHECK(profile.range_speed_m_s == 1490.0);
@@ -54,12 +52,11 @@ TEST_CASE("sound profiles: the named ones follow Mackenzie's formula") {
     // Worked out by hand from the formula at 35 psu: 1521.46 at 20 degrees and the surface,
     // 1484.05 at 8 degrees and 100 m.
     const SoundProfile summer = sound_profile(watery(named(NamedProfile::summer)));
-    CHECK(summer.speed_at(3.0) == test::approx(1521.46).epsilon(1e-5));
-    CHECK(summer.speed_at(-97.0) == test::approx(1484.05).epsilon(1e-5));
+    CHECK(summer.speed_at(3.0) == approx(1521.46).epsilon(1e-5));
+    CHECK(summer.speed_at(-97.0) == approx(1484.05).epsilon(1e-5));
     // 10 degrees at all depths: only the pressure raises the speed, by 0.0163 per metre.
     const SoundProfile isothermal = sound_profile(watery(named(NamedProfile::isothermal)));
-    CHECK(isothermal.speed_at(-97.0) - isothermal.speed_at(3.0) ==
-          test::approx(1.632).epsilon(5e-3));
+    CHECK(isothermal.speed_at(-97.0) - isothermal.speed_at(3.0) == approx(1.632).epsilon(5e-3));
     const SoundProfile mixed = sound_profile(watery(named(NamedProfile::mixed_layer)));
     CHECK(mixed.speed_at(-47.0) > mixed.speed_at(3.0));
     CHECK(mixed.speed_at(-97.0) < mixed.speed_at(-47.0) - 20.0);
@@ -72,8 +69,8 @@ TEST_CASE("sound profiles: below a cold mixed layer no water is colder than 0 de
         mission.water.temperature_c = celsius;
         return sound_profile(mission).speed_at(-97.0);
     };
-    CHECK(speed_at_100_m(4.0) == test::approx(1450.592).epsilon(1e-6));   // at 0 degrees
-    CHECK(speed_at_100_m(-2.0) == test::approx(1441.196).epsilon(1e-6));  // at -2 degrees
+    CHECK(speed_at_100_m(4.0) == approx(1450.592).epsilon(1e-6));   // at 0 degrees
+    CHECK(speed_at_100_m(-2.0) == approx(1441.196).epsilon(1e-6));  // at -2 degrees
 }
 
 TEST_CASE("sound profiles: multipath goes straight, so it is refused") {

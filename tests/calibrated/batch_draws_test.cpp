@@ -5,8 +5,6 @@
 #include "simulate/calibrated/speckle/speckle.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// A grid of random powers in the real parts; a share of the cells is empty, in runs.

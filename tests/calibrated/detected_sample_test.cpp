@@ -1,9 +1,6 @@
 #include "simulate/calibrated/receiver/receiver_chain.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 ReceiverConfig receiver(double samples, SampleRule rule, double expansion = 1.0) {
@@ -77,7 +74,6 @@ TEST_CASE("detected sample: an expansion raises the power of the sample to it") 
     };
     for (const double x : {0.01, 0.3, 3.0, 9.0}) {
         CAPTURE(x);
-        CHECK(over_median(1.75, x) ==
-              test::approx(std::pow(over_median(1.0, x), 1.75)).epsilon(1e-3));
+        CHECK(over_median(1.75, x) == approx(std::pow(over_median(1.0, x), 1.75)).epsilon(1e-3));
     }
 }

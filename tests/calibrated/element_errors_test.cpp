@@ -3,9 +3,6 @@
 #include "support/calibrated.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr ElementsConfig errors{.gain_error_db = 0.5, .phase_error_deg = 3.0, .serial = 0};
@@ -28,7 +25,7 @@ TEST_CASE("element errors: the mean side lobe is their variance over the element
                 expected += mean_side_lobe(array, errors);
             }
         }
-        CHECK(sum == test::approx(expected).epsilon(0.11));
+        CHECK(sum == approx(expected).epsilon(0.11));
     }
 }
 
@@ -75,7 +72,7 @@ TEST_CASE("element errors: the side lobes of the beams are those of the elements
         with += side_lobes() / 30.0;
     }
     const LineArray array = line_array(radians(2.0), -40.0);
-    CHECK(with - without == test::approx(mean_side_lobe(array, errors)).epsilon(0.17));
+    CHECK(with - without == approx(mean_side_lobe(array, errors)).epsilon(0.17));
 }
 
 TEST_CASE("element errors: nulls in elevation fill") {
@@ -84,6 +81,5 @@ TEST_CASE("element errors: nulls in elevation fill") {
     };
     const double floor = mean_side_lobe(line_array(radians(20.0), -13.3), errors);
     CHECK(lowest(elevation_pattern(radians(20.0), -13.3)) < 1e-5F);
-    CHECK(lowest(elevation_pattern(radians(20.0), -13.3, errors)) ==
-          test::approx(floor).epsilon(0.02));
+    CHECK(lowest(elevation_pattern(radians(20.0), -13.3, errors)) == approx(floor).epsilon(0.02));
 }

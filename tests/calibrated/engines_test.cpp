@@ -3,9 +3,6 @@
 #include "support/calibrated.h"
 #include "support/lattices.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A plane bottom 5 m below the vehicle, with a box and a ball on it.

@@ -4,9 +4,6 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The mean echo of sand over the noise, dB.

@@ -3,9 +3,6 @@
 #include "simulate/visibility/view.h"
 #include "support/calibrated.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A line array that hears all elevations alike in beams of 60 degrees of azimuth.

@@ -7,9 +7,6 @@
 #include "support/calibrated.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr int steps = 4000;
@@ -209,9 +206,9 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
     const double half_m = 0.5 * config.range_max_m;
     const double down_rad = radians(20.0);
     const Sonar sonar = make_sonar(config, {});
-    Scene scene = shapes::empty_scene();
+    Scene scene = empty_scene();
     scene.materials = {example_sand()};
-    shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
+    add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
     const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
     const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
     std::vector<float> near_half;

@@ -5,9 +5,6 @@
 #include "support/patches.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr int bins = 200;
@@ -101,7 +98,7 @@ TEST_CASE("calibrated: scatterers stay, however the surface is cut, or are drawn
     const std::vector<float> first = image_by(SpeckleMode::scene, samples, 0);
     CHECK(first == image_by(SpeckleMode::scene, samples, 1));
     const auto correlated = [&](const std::vector<float>& a, const std::vector<float>& b) {
-        return test::correlation(normalised(a, expected, 1, 1), normalised(b, expected, 1, 1));
+        return correlation(normalised(a, expected, 1, 1), normalised(b, expected, 1, 1));
     };
     CHECK(correlated(first, image_by(SpeckleMode::scene, floor_below(0.0172), 0)) > 0.98);
     const std::vector<float> drawn = image_by(SpeckleMode::ping, samples, 0);

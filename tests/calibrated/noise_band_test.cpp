@@ -5,9 +5,6 @@
 #include "support/patches.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr PhiloxKey noise_key{11, 12};
@@ -159,7 +156,7 @@ TEST_CASE("noise: that of the converter is the same at all ranges, whatever the 
         }
         // 40,000 exponential values or more, correlated over a few: 0.01 within 2.5 %.
         for (const std::vector<double>& values : quarters)
-            CHECK(mean(values) == test::approx(0.01).epsilon(0.025));
+            CHECK(mean(values) == approx(0.01).epsilon(0.025));
     }
 }
 

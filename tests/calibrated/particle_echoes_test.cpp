@@ -3,9 +3,6 @@
 #include "support/labelled.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr float section_m2 = 1e-4F;  // TS = -40 dB
@@ -78,7 +75,7 @@ TEST_CASE("particles: the level of a target in the beam of a fan, and by elevati
         return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
     };
     CHECK(std::fabs(level(0.0)) < 0.11);
-    CHECK(level(10.0) - level(0.0) == test::approx(db_of_power(0.5)).epsilon(0.02));
+    CHECK(level(10.0) - level(0.0) == approx(db_of_power(0.5)).epsilon(0.02));
 }
 
 // With speckle a single target does not flicker, and two of one strength at one place add by
@@ -97,11 +94,11 @@ TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
     const Eigen::Vector3f place{9.05F, 0.0F, 0.0F};
     const float one = peak({place}, 0, 7);
     CHECK(one == peak({place}, 5, 7));
-    CHECK(one == test::approx(peak({place}, 0, 8)).epsilon(1e-5));
+    CHECK(one == approx(peak({place}, 0, 8)).epsilon(1e-5));
     // In the middle of a bin the amplitude is that of the pulse's middle tap.
     const std::vector<float>& taps = model.amplitude_taps.taps;
     const double middle = taps[taps.size() / 2];
-    CHECK(one == test::approx(middle * middle * equation(model, 9.05)).epsilon(1e-4));
+    CHECK(one == approx(middle * middle * equation(model, 9.05)).epsilon(1e-4));
     double sum = 0.0;
     constexpr int seeds = 200;
     for (int seed = 0; seed < seeds; ++seed) {
@@ -110,7 +107,7 @@ TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
         sum += both / one;
     }
     // The mean of 2 + 2 cos(phase) is 2, its deviation sqrt(2): 4 sigma of 200 are 0.4.
-    CHECK(sum / seeds == test::approx(2.0).epsilon(0.2));
+    CHECK(sum / seeds == approx(2.0).epsilon(0.2));
 }
 
 // Targets are added eight at a time, in blocks of 256. What fills up the last eight has no
@@ -160,7 +157,7 @@ TEST_CASE("particles: labels at their bin and beam") {
     CHECK(found.objects.objects[found.labels.object[at] - 1U].name == "fish_1");
     CHECK(found.labels.share[at] == 1.0F);
     CHECK(found.labels.material[at] == fish.material + 1);
-    CHECK(found.labels.elevation_rad[at] == test::approx(0.02).epsilon(0.02));
+    CHECK(found.labels.elevation_rad[at] == approx(0.02).epsilon(0.02));
     // A beam and a bin have that label, cut by the borders of two of each.
     CHECK(std::ranges::count(found.labels.object, found.labels.object[at]) <= 9);
 }

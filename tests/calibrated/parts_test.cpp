@@ -3,8 +3,6 @@
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// The sines of 2 half + 1 beams, `step` apart.
@@ -66,11 +64,11 @@ TEST_CASE("beams: noise has the power asked for and the correlation of the apert
             }
         }
     }
-    CHECK(std::fabs(test::mean(powers) - 1.0) < 0.01);
-    CHECK(std::fabs(std::pow(test::deviation(powers), 2.0) - 1.0) < 0.03);
+    CHECK(std::fabs(mean(powers) - 1.0) < 0.01);
+    CHECK(std::fabs(std::pow(deviation(powers), 2.0) - 1.0) < 0.03);
     const double t = array.wavelengths / 255.0;
     const double sinc = std::sin(pi * t) / (pi * t);
-    CHECK(std::fabs(test::correlation(powers, neighbours) - sinc * sinc) < 0.02);
+    CHECK(std::fabs(correlation(powers, neighbours) - sinc * sinc) < 0.02);
 }
 
 TEST_CASE("beams: echoes between the columns have the energy of the pattern on average") {
@@ -134,9 +132,8 @@ TEST_CASE("beams: out of focus amplitudes and powers have Fresnel's pattern, and
                 }
                 CHECK(std::fabs(out_of_focus[j] / in_focus[half] - std::norm(sum)) < 0.01);
             }
-            CHECK(
-                std::accumulate(out_of_focus.begin(), out_of_focus.end(), 0.0) ==
-                test::approx(std::accumulate(in_focus.begin(), in_focus.end(), 0.0)).epsilon(0.02));
+            CHECK(std::accumulate(out_of_focus.begin(), out_of_focus.end(), 0.0) ==
+                  approx(std::accumulate(in_focus.begin(), in_focus.end(), 0.0)).epsilon(0.02));
         }
     }
 }

@@ -4,9 +4,6 @@
 #include "support/calibrated.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr int chain_rows = 2000;
@@ -90,7 +87,7 @@ TEST_CASE("receiver: ringing lies where it should") {
     const std::vector<float> rung = noise_image(ringing);
     for (const int row : {0, 200, 500})
         CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
-              test::approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
+              approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
 }
 
 // A Poisson process of 40 pulses in 2,000 pings of 20 m (26.7 ms) has 2,135; 4.5 standard
@@ -185,7 +182,7 @@ TEST_CASE("receiver: gains of beams stay") {
         add_faults(receiver, rows, {1, 2, ping}, image);
         for (int k = 0; k < 16; ++k) {
             CHECK(10.0 * std::log10(image[k]) ==
-                  test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
+                  approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
         }
     }
     receiver.channel_beams = 3;
@@ -195,7 +192,7 @@ TEST_CASE("receiver: gains of beams stay") {
     receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
     std::vector<float> image(16, 1.0F);
     add_faults(receiver, rows, {1, 2, 3}, image);
-    CHECK(10.0 * std::log10(image[7]) == test::approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
+    CHECK(10.0 * std::log10(image[7]) == approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
     CHECK(image[8] == image[7]);
 }
 

@@ -2,9 +2,6 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/product/scan.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A plate of rock of a tenth of a millimetre that faces the sonar straight ahead.

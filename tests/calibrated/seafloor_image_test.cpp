@@ -4,9 +4,6 @@
 #include "support/draws.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// Material 0 is sand, 1 is steel, 2 scatters nothing.

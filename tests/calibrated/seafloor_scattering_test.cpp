@@ -4,8 +4,6 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 Material grain_size_material(double phi) {

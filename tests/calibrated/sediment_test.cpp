@@ -5,9 +5,6 @@
 #include "simulate/calibrated/signal/decibel.h"
 #include "support/calibrated.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double sounder_hz = 38e3;
@@ -45,9 +42,9 @@ TEST_CASE("sea bed: own numbers replace those of the grain size") {
     material.volume_parameter = sand.volume_parameter;
     const Water water{1000.0, 1500.0};
     SeaBed own = sea_bed_of(material, water);
-    CHECK(own.density_ratio == test::approx(1.845));
-    CHECK(own.speed_ratio == test::approx(1.178));
-    CHECK(own.spectral_strength == test::approx(sand.spectral_strength));
+    CHECK(own.density_ratio == approx(1.845));
+    CHECK(own.speed_ratio == approx(1.178));
+    CHECK(own.spectral_strength == approx(sand.spectral_strength));
     CHECK(own.spectral_exponent == 3.25);
 
     material.grain_phi = 1.5;
@@ -59,7 +56,7 @@ TEST_CASE("sea bed: own numbers replace those of the grain size") {
     material.spectral_exponent = 3.0;
     own = sea_bed_of(material, water);
     CHECK(own.spectral_strength * std::pow(100.0, -3.0) ==
-          test::approx(sand.spectral_strength * std::pow(100.0, -3.25)));
+          approx(sand.spectral_strength * std::pow(100.0, -3.25)));
 }
 
 // Sound is attenuated by 8.686 k loss dB per m on its way down and up.
@@ -70,7 +67,7 @@ TEST_CASE("sediment: at normal incidence the tail decays by the attenuation of t
         const SeafloorScattering scattering(bed, bed_wavenumber());
         const double attenuation_db = 20.0 / ln_10 * bed_wavenumber() * bed.loss;
         const double decay_db = 10.0 / ln_10 / scattering.lag_m(0.5 * pi);
-        CHECK(decay_db == test::approx(2.0 * attenuation_db).epsilon(1e-4));
+        CHECK(decay_db == approx(2.0 * attenuation_db).epsilon(1e-4));
     }
 }
 
@@ -81,11 +78,11 @@ TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope
     const std::vector<float> whole = expected_image(bed_sounder(false), scene, EngineKind::rays);
     const std::vector<float> divided = expected_image(bed_sounder(true), scene, EngineKind::rays);
     const SeafloorScattering bed(sea_bed_of_grain_size(bed_phi), bed_wavenumber());
-    CHECK(total(divided) == test::approx(total(whole)).epsilon(0.01));
+    CHECK(total(divided) == approx(total(whole)).epsilon(0.01));
     const auto row_at = [&](double range_m) { return static_cast<int>((range_m - 8.0) / 0.02); };
     CHECK(whole[row_at(10.4)] < 1e-3F * divided[row_at(10.4)]);
     const double fall_db = db_of_power(divided[row_at(10.4)] / divided[row_at(11.4)]);
-    CHECK(fall_db == test::approx(10.0 / ln_10 / bed.lag_m(0.5 * pi)).epsilon(0.02));
+    CHECK(fall_db == approx(10.0 / ln_10 / bed.lag_m(0.5 * pi)).epsilon(0.02));
 }
 
 // At 1.2 MHz sand swallows all sound within a millimetre.

@@ -2,9 +2,6 @@
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The correlation of the powers of an aperture in uniform incoherent sound with those of the same

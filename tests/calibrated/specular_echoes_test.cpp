@@ -7,9 +7,6 @@
 #include "support/calibrated.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A bare sonar that hears all multipath.

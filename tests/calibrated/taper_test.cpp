@@ -4,9 +4,6 @@
 #include "support/calibrated.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double nearest_m = 8.0;

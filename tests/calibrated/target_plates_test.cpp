@@ -2,9 +2,6 @@
 #include "support/draws.h"
 #include "support/maps.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A small plate of material 0 that faces a side-scan 20 m away, over a floor without an echo.

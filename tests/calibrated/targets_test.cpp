@@ -2,9 +2,6 @@
 #include "simulate/trace/target_shapes.h"
 #include "simulate/water/water_ray.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A ball and a dark wall `distance_m` off, which hides what lies beyond a line that is `edge_m`
@@ -110,7 +107,7 @@ TEST_CASE("targets: what a wall hides of a highlight has no echo") {
         const BallScene hidden = behind_wall(open, 0.5 * (8.0 - 0.3), y, 0.0);
         CAPTURE(edge);
         CHECK(energy_by_rays(sonar, hidden.scene) / whole ==
-              test::approx(0.5 * std::erfc(-edge / std::sqrt(2.0))).epsilon(0.15));
+              approx(0.5 * std::erfc(-edge / std::sqrt(2.0))).epsilon(0.15));
     }
 }
 
@@ -155,15 +152,14 @@ TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they
     moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
     const auto engine = make_engine(moving, {.type = EngineKind::rays, .octree = {}});
     const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
-    CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) ==
-          test::approx(expected).epsilon(0.01));
+    CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) == approx(expected).epsilon(0.01));
 
     Scene copied = metal_scene();
     copied.shared_meshes.push_back({half.vertices, half.triangles, half.triangle_material});
     MeshCopy copy{.mesh = 0, .instance = 0};
     copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
     copied.copies.push_back(copy);
-    CHECK(energy_by_rays(sonar, copied) == test::approx(expected).epsilon(0.01));
+    CHECK(energy_by_rays(sonar, copied) == approx(expected).epsilon(0.01));
 }
 
 TEST_CASE("targets: where sound bends they have the echo of their apparent place") {
@@ -182,7 +178,7 @@ TEST_CASE("targets: where sound bends they have the echo of their apparent place
         CAPTURE(gradient);
         const double energy = energy_by_rays(sonar, bent.scene);
         CHECK(energy ==
-              test::approx(appears.strength * energy_by_rays(sonar, straight.scene)).epsilon(0.02));
+              approx(appears.strength * energy_by_rays(sonar, straight.scene)).epsilon(0.02));
         // A wall across the path hides it.
         CHECK(energy_by_rays(sonar, behind_wall(bent, 4.0, -2.0, 0.0).scene) < 1e-6 * energy);
     }
@@ -212,7 +208,7 @@ TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
             target_shape({round.vertices, twice, std::vector<std::uint32_t>(twice.size(), 0)});
         CHECK(sphere.triangles.size() <= round.triangles.size());
         CHECK(sphere.closed);
-        CHECK(sphere.curvature_m == test::approx(2.0).epsilon(0.01));
+        CHECK(sphere.curvature_m == approx(2.0).epsilon(0.01));
         for (const TargetTriangle& triangle : sphere.triangles) {
             for (int k = 0; k < 3; ++k) {
                 const Eigen::Vector3f out =

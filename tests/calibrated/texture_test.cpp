@@ -1,9 +1,6 @@
 #include "simulate/calibrated/speckle/speckle.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr PhiloxKey key{11, 22};
@@ -77,7 +74,7 @@ TEST_CASE("texture: factors have the mean 1 and the deviation of its octaves") {
         // that the field is not quite normal.
         CHECK(std::fabs(mean(factors) - 1.0) < 0.02);
         CHECK(deviation(values) ==
-              test::approx(octave_db * std::sqrt(1.0 * Texture::octaves)).epsilon(0.03));
+              approx(octave_db * std::sqrt(1.0 * Texture::octaves)).epsilon(0.03));
     }
 }
 

@@ -7,9 +7,6 @@
 #include "support/maps.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double frequency_hz = 4e5;
@@ -106,22 +103,22 @@ TEST_CASE("thin walls: transmission is that of the waves in the wall") {
         const double kd = 2.0 * pi * hz / wall.sound_speed_m_s * 1e-3 * *wall.wall_mm;
         const double expected =
             std::norm((1.0 - r * r) / (1.0 - r * r * std::polar(1.0, 2.0 * kd)));
-        CHECK(wall_transmission(wall, hz, water) == test::approx(expected));
+        CHECK(wall_transmission(wall, hz, water) == approx(expected));
 
         Material window = wall;
         window.wall_mm = 1e3 * draws.whole(1, 5) * wall.sound_speed_m_s / (2.0 * hz);
-        CHECK(wall_transmission(window, hz, water) == test::approx(1.0));
+        CHECK(wall_transmission(window, hz, water) == approx(1.0));
         window.wall_mm = 1e3 * (0.5 * draws.whole(1, 5) + 0.25) * wall.sound_speed_m_s / hz;
         const double ratio = z / z_w;
         CHECK(wall_transmission(window, hz, water) ==
-              test::approx(4.0 / ((ratio + 1.0 / ratio) * (ratio + 1.0 / ratio))));
+              approx(4.0 / ((ratio + 1.0 / ratio) * (ratio + 1.0 / ratio))));
     }
     // The mass law of a thin heavy wall: the mass per area alone counts.
     const Material steel{
         .name = "steel", .density_kg_m3 = 7850.0, .sound_speed_m_s = 5890.0, .wall_mm = 0.05};
     const double mass = 2.0 * pi * frequency_hz * 5e-5 * 7850.0 / (2.0 * 997.0 * 1480.0);
     CHECK(wall_transmission(steel, frequency_hz, water) ==
-          test::approx(1.0 / (1.0 + mass * mass)).epsilon(0.01));
+          approx(1.0 / (1.0 + mass * mass)).epsilon(0.01));
     CHECK(wall_transmission({.name = "solid"}, frequency_hz, water) == 0.0);
 }
 
@@ -141,10 +138,10 @@ TEST_CASE("thin walls: the echo of a plate falls by T^2 for each wall before it"
             walls.add_plate(first_m, normal, walls.add(first));
             CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
             CHECK(walls.energy(sonar, setting.engine) / alone ==
-                  test::approx(two_way(first)).epsilon(0.01));
+                  approx(two_way(first)).epsilon(0.01));
             walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
             CHECK(walls.energy(sonar, setting.engine) / alone ==
-                  test::approx(two_way(first) * two_way(second)).epsilon(0.01));
+                  approx(two_way(first) * two_way(second)).epsilon(0.01));
         }
     }
 }
@@ -239,7 +236,7 @@ TEST_CASE("thin walls: the back of a sphere has its echo at every range") {
                     cosine * cosine * std::pow(r, -4.0) * std::pow(10.0, -0.2 * alpha * r);
             }
             CAPTURE_ALL(distance_m, static_cast<int>(engine));
-            CHECK(back / front == test::approx(two_way(wall) * sums[1] / sums[0]).epsilon(0.02));
+            CHECK(back / front == approx(two_way(wall) * sums[1] / sums[0]).epsilon(0.02));
         }
     }
 }

@@ -4,9 +4,6 @@
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 TEST_CASE("piston: axis, half power, first null, first side lobe") {
     CHECK(std::fabs(piston_pattern(0.0) - 1.0) < 1e-12);
     const double width = radians(7.0);

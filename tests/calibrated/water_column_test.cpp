@@ -5,9 +5,6 @@
 #include "simulate/calibrated/equation/water.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The greatest difference of an image's beams `from` to `to` from the closed form, dB. The pulse
@@ -125,7 +122,7 @@ TEST_CASE("water: its speckle is exponential in power, new in every ping, keyed 
         for (int row = 10; row < 190; row += 4)
             powers.push_back(image[row] / expected[row]);
     }
-    CHECK(test::mean(powers) == test::approx(1.0).epsilon(0.07));
+    CHECK(mean(powers) == approx(1.0).epsilon(0.07));
     CHECK(ks_p_value(powers, [](double x) { return 1.0 - std::exp(-x); }) > 1e-3);
     CHECK(water_image(model, view, {7, 2, 0}) == water_image(model, view, {7, 2, 0}));
     CHECK(water_image(model, view, {7, 2, 0}) != water_image(model, view, {8, 2, 0}));
@@ -158,9 +155,9 @@ TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
         const double layer_share = (layer[row] - floor[row]) / whole;
         const double all_share = (all[row] - floor[row]) / whole;
         if (range_m < 4.5 || (range_m > 8.9 && range_m < 14.0)) CHECK(layer_share < 0.01);
-        if (range_m > 5.6 && range_m < 7.5) CHECK(layer_share == test::approx(1.0).epsilon(0.03));
+        if (range_m > 5.6 && range_m < 7.5) CHECK(layer_share == approx(1.0).epsilon(0.03));
         // The floor is met from 15 m on the axis to 15.2 m at 9 degrees.
-        if (range_m < 14.0) CHECK(all_share == test::approx(1.0).epsilon(0.02));
+        if (range_m < 14.0) CHECK(all_share == approx(1.0).epsilon(0.02));
         if (range_m > 16.0) CHECK(all_share < 0.02);
     }
 }
@@ -222,16 +219,15 @@ TEST_CASE("water: fine particles scatter by Rayleigh's law, coarse ones by their
     for (const double k : {50.0, 400.0, 1600.0}) {
         for (const double um : {4.0, 20.0, 50.0}) {
             CAPTURE_ALL(k, um);
-            CHECK(suspended_strength(10.0, um, k) ==
-                  test::approx(by_hand(10.0, um, k)).epsilon(0.06));
+            CHECK(suspended_strength(10.0, um, k) == approx(by_hand(10.0, um, k)).epsilon(0.06));
         }
     }
     // 10 mg/l of 50 um at 400 kHz.
     CHECK(db_of_power(suspended_strength(10.0, 50.0, 2.0 * pi * 4e5 / 1480.0)) ==
-          test::approx(-73.35).epsilon(0.0005));
+          approx(-73.35).epsilon(0.0005));
     constexpr double a = 1e-3;
     const double expected = 3.0 * 1e-2 / (16.0 * pi * 2650.0 * a * 0.81);
-    CHECK(suspended_strength(10.0, 2e6 * a, 4e4) == test::approx(expected).epsilon(0.01));
+    CHECK(suspended_strength(10.0, 2e6 * a, 4e4) == approx(expected).epsilon(0.01));
 }
 
 TEST_CASE("water: what it holds, and what an instrument takes for granted") {
@@ -241,7 +237,7 @@ TEST_CASE("water: what it holds, and what an instrument takes for granted") {
     instrument.usual_water = WaterContent::coastal;
     const double usual = volume_strength(water_of(water, instrument), 4e5);
     const double particles = suspended_strength(20.0, 50.0, 2.0 * pi * 4e5 / 1480.0);
-    CHECK(usual == test::approx(power_of_db(-75.0) + particles).epsilon(1e-12));
+    CHECK(usual == approx(power_of_db(-75.0) + particles).epsilon(1e-12));
     // The mission decides if it says something.
     water.content = WaterContent::none;
     CHECK(volume_strength(water_of(water, instrument), 4e5) == 0.0);
@@ -256,8 +252,8 @@ TEST_CASE("target strength: fish by their length") {
     const auto db = [](double length_m, double hz) {
         return db_of_power(fish_section_m2(length_m, hz));
     };
-    CHECK(db(0.3, 38e3) == test::approx(-35.21).epsilon(1e-3));
-    CHECK(db(0.1, 400e3) == test::approx(-45.24).epsilon(1e-3));
+    CHECK(db(0.3, 38e3) == approx(-35.21).epsilon(1e-3));
+    CHECK(db(0.1, 400e3) == approx(-45.24).epsilon(1e-3));
 }
 
 // Minnaert: a bubble of 1 mm just below the surface rings at 3.26 kHz. There the section is
@@ -267,13 +263,13 @@ TEST_CASE("target strength: bubbles at, above and below resonance") {
         return bubble_section_m2(radius_m, depth_m, 1000.0, 1500.0, hz);
     };
     const double f0 = std::sqrt(3.0 * 1.4 * 101325.0 / 1000.0) / (2.0 * pi * 1e-3);
-    CHECK(f0 == test::approx(3283.0).epsilon(1e-3));
+    CHECK(f0 == approx(3283.0).epsilon(1e-3));
     const double k = 2.0 * pi * f0 / 1500.0;
-    CHECK(section(1e-3, f0) == test::approx(1.0 / (k * k)).epsilon(1e-9));
-    CHECK(section(1e-3, 20e3) == test::approx(1e-6).epsilon(0.07));
-    CHECK(section(1e-3, 300.0) == test::approx(1e-6 * std::pow(300.0 / f0, 4)).epsilon(0.02));
-    CHECK(section(1e-2, 1e6) == test::approx(0.25e-4).epsilon(1e-9));
+    CHECK(section(1e-3, f0) == approx(1.0 / (k * k)).epsilon(1e-9));
+    CHECK(section(1e-3, 20e3) == approx(1e-6).epsilon(0.07));
+    CHECK(section(1e-3, 300.0) == approx(1e-6 * std::pow(300.0 / f0, 4)).epsilon(0.02));
+    CHECK(section(1e-2, 1e6) == approx(0.25e-4).epsilon(1e-9));
     // At 30 m there are four atmospheres, and it rings an octave higher.
     CHECK(section(1e-3, f0, 30.987) < 0.2 * section(1e-3, f0));
-    CHECK(section(1e-3, 2.0 * f0, 30.987) == test::approx(0.25 / (k * k)).epsilon(0.02));
+    CHECK(section(1e-3, 2.0 * f0, 30.987) == approx(0.25 / (k * k)).epsilon(0.02));
 }

@@ -1,9 +1,6 @@
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/equation/bottom.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 double surface_db(double grazing_deg, double wind_m_s, double hz) {
@@ -56,8 +53,8 @@ TEST_CASE("wind: strengths of the surface at high frequency") {
 // 158 x 200^-0.58 = 7.31, so -34.0 dB; at 10 degrees 3.3 b log(1 / 3) less, -45.5 dB.
 TEST_CASE("wind: strengths of the surface at low frequency") {
     const double wind = 20.0 * 1852.0 / 3600.0;
-    CHECK(surface_db(30.0, wind, 1e3) == test::approx(-34.04).epsilon(2e-3));
-    CHECK(surface_db(10.0, wind, 1e3) == test::approx(-45.55).epsilon(2e-3));
+    CHECK(surface_db(30.0, wind, 1e3) == approx(-34.04).epsilon(2e-3));
+    CHECK(surface_db(10.0, wind, 1e3) == approx(-45.55).epsilon(2e-3));
     // More wind sends more back, and the strengths are finite in a calm and at the horizon.
     CHECK(surface_db(20.0, 12.0, 3e3) > surface_db(20.0, 6.0, 3e3) + 3.0);
     for (const double hz : {1e3, 1e5}) {
@@ -89,12 +86,12 @@ TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
     const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
     const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
     CHECK(db_of_power(total(windy) / total(breeze)) ==
-          test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
+          approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
     // The level: the taps of the pulse sum to its integral over range.
     const CalibratedModel& model = calibrated_model_of(sonar);
     const double taps = total(model.power_taps.taps);
     CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
     // The first echo is at 10 m.
     const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
-    CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) == test::approx(10.0).epsilon(0.01));
+    CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) == approx(10.0).epsilon(0.01));
 }

@@ -4,9 +4,6 @@
 #include "simulate/sonar/sonar.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 using Sentences = std::vector<std::string>;

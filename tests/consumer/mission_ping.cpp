@@ -1,5 +1,5 @@
-// The first ping of each sonar of a mission: prints the sonar's name and the number of its bins with an
-// echo, without noise.
+// The first ping of each sonar of a mission: prints the sonar's name and the number of its bins
+// with an echo, without noise.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -22,9 +22,9 @@ int main(int argc, char** argv) {
     const Assembly assembly = assemble(mission);
     const auto engine = make_engine(assembly.scene, EngineSettings{});
     for (const Sonar& sonar : assembly.sonars) {
-        const Ping ping = render_ping(sonar, assembly.scene, *engine,
-                                      assembly.trajectory.front().T_world_vehicle,
-                                      PingKey{mission.seed, 0}, without_random_terms);
+        const Ping ping =
+            render_ping(sonar, assembly.scene, *engine, assembly.trajectory.front().T_world_vehicle,
+                        PingKey{mission.seed, 0}, without_random_terms);
         const auto occupied = ping.intensity.size() - std::ranges::count(ping.intensity, 0.0F);
         std::cout << sonar.config.name << ' ' << occupied << '\n';
     }

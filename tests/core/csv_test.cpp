@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("CSV: fields are trimmed or quoted, and rows keep their line numbers") {
     const CsvTable table = parse_csv(
         "\xEF\xBB\xBF# made by hand\n\na, b ,c\r\n 1 ,2,\t3\n\n#x\n,,\n \"x, y\" , \"say "

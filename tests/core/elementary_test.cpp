@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 // The reference values come from the C library's functions in long double.
 
 namespace {
@@ -57,11 +55,11 @@ TEST_CASE("elementary: arctan2 and arcsin are off by less than 1e-15") {
 
 TEST_CASE("elementary: arctan2 on the axes and at the origin") {
     CHECK(arctan2(0.0, 1.0) == 0.0);
-    CHECK(arctan2(1.0, 0.0) == test::approx(pi / 2).epsilon(1e-15));
-    CHECK(arctan2(-1.0, 0.0) == test::approx(-pi / 2).epsilon(1e-15));
+    CHECK(arctan2(1.0, 0.0) == approx(pi / 2).epsilon(1e-15));
+    CHECK(arctan2(-1.0, 0.0) == approx(-pi / 2).epsilon(1e-15));
     // The branch cut runs along the negative x axis: the sign of a zero selects its side.
-    CHECK(arctan2(0.0, -1.0) == test::approx(pi).epsilon(1e-15));
-    CHECK(arctan2(-0.0, -1.0) == test::approx(-pi).epsilon(1e-15));
+    CHECK(arctan2(0.0, -1.0) == approx(pi).epsilon(1e-15));
+    CHECK(arctan2(-0.0, -1.0) == approx(-pi).epsilon(1e-15));
     CHECK(std::signbit(arctan2(-0.0, 1.0)));
     CHECK_FALSE(std::signbit(arctan2(0.0, 1.0)));
     for (const double y : {0.0, -0.0}) {

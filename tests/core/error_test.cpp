@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("error: errors are collected, each once, and thrown together") {
     ErrorList errors;
     CHECK_NOTHROW(errors.raise());

@@ -5,7 +5,6 @@
 #include "core/hash.h"
 #include "support/test.h"
 
-using namespace sonarsim;
 namespace fs = std::filesystem;
 
 TEST_CASE("file: a temporary name is a hidden sibling, another one each time") {
@@ -22,7 +21,7 @@ TEST_CASE("file: a temporary name is a hidden sibling, another one each time") {
 }
 
 TEST_CASE("file: reading refuses what is missing, too long or no regular file") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const auto refused = [&](const char* name, const std::string& reason) {
         const fs::path path = folder.path / name;
         CHECK_THROWS_WITH_AS(read_file(path, 4), (path.string() + ": " + reason).c_str(),
@@ -45,7 +44,7 @@ TEST_CASE("SHA-256 and FNV-1a of the published test vectors") {
     const std::string bytes(1'000'000, 'a');
     const std::string sum = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
     CHECK(sha256(bytes) == sum);
-    const test::TemporaryFolder temporary;
+    const TemporaryFolder temporary;
     write_file(temporary.path / "a", bytes);  // it is read in pieces
     CHECK(sha256_of_file(temporary.path / "a") == sum);
     CHECK_THROWS_AS(sha256_of_file(temporary.path / "none"), std::system_error);

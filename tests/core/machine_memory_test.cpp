@@ -2,9 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 void write(const std::filesystem::path& file, const char* text) {

@@ -4,8 +4,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 constexpr std::size_t in_flight = 6;

@@ -2,7 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
 using Eigen::Vector3d;
 
 namespace {

@@ -4,8 +4,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("philox is the function of Random123") {
     r123::Philox4x32 reference;
     for (std::uint32_t i = 0; i < 1000; ++i) {

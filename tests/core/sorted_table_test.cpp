@@ -1,8 +1,6 @@
 #include "simulate/trace/cone_beams.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("sorted table: a place is that of a binary search") {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> step(0.1F, 2.0F);

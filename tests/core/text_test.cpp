@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("text: control characters are escaped") {
     CHECK(printable("Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4") ==
           "Steel plate 3\" \\ \xc3\xa9\xe6\xb0\xb4");

@@ -6,8 +6,6 @@
 #include "output/dataset/metadata.h"
 #include "run/job/dataset_folders.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
 using Json = nlohmann::ordered_json;
 
 namespace {

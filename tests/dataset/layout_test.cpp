@@ -6,9 +6,6 @@
 #include "support/small_mission.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 Layout layout_of(const Mission& mission, int poses) {
@@ -48,12 +45,12 @@ TEST_CASE("metadata: the apex of a fan, and the numbers of a ping") {
     // The apex of a 60 degree fan: the middle of the lower edge.
     const Json& fan = json.at("sensors")[1].at("fan");
     CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
-    CHECK(fan.at("apex_px")[1].get<double>() == test::approx(fan.at("height_px").get<double>()));
+    CHECK(fan.at("apex_px")[1].get<double>() == approx(fan.at("height_px").get<double>()));
     const TracedPing traced;
     const Ping ping;
     const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
     const Json described = Json::parse(json_text(describe_ping(mission, assembly, finished)));
-    CHECK(described.at("time_s") == test::approx(0.3));
+    CHECK(described.at("time_s") == approx(0.3));
     CHECK(described.at("clipped_pixels") == 13);
 }
 

@@ -4,10 +4,6 @@
 
 #include "support/npy_data.h"
 
-using namespace sonarsim;
-using sonarsim::test::TemporaryFolder;
-using test::data_of;
-
 namespace {
 
 template <class T>

@@ -13,9 +13,6 @@ namespace sonarsim {
 KindOfSonar obstacle_kind();
 }
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     Scene scene = empty_scene();
     add_box(scene, {7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, add_material(scene, 0.6F));
@@ -74,12 +71,12 @@ TEST_CASE("example of a kind of sample: a wake absorbs and scatters") {
     samples.items[0].position = {7.0F, 0.0F, 0.0F};
     samples.items[1].position = {0.0F, 0.0F, -7.0F};
     add_wake(wake, SampleKind::particle, *engine, {}, samples);
-    CHECK(samples.items[0].strength == test::approx(std::exp(-2 * 0.3 * 2)));
+    CHECK(samples.items[0].strength == approx(std::exp(-2 * 0.3 * 2)));
     CHECK(samples.items[1].strength == 1.0F);
     double section_m2 = 0.0;
     for (std::size_t k = 2; k < samples.items.size(); ++k)
         section_m2 += samples.items[k].area_m2;
-    CHECK(section_m2 == test::approx(0.02 * 1 * 2 * 2));
+    CHECK(section_m2 == approx(0.02 * 1 * 2 * 2));
 }
 
 TEST_CASE("example of an echo model: the energy of a floor under a cone") {
@@ -97,6 +94,5 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
         render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
     const double energy = std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
     const double cosine = std::cos(radians(15.0));
-    CHECK(energy ==
-          test::approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
+    CHECK(energy == approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
 }

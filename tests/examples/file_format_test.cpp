@@ -5,9 +5,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// nearest/NNNNNN.csv: the range of the first bin with an echo in each beam, m.

@@ -3,9 +3,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// Finds the mean cosine of the angle of incidence of a beam's bins, weighted by the echo.
@@ -63,7 +60,7 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     for (int i = 1; i + 1 < view.range_bins; ++i) {
         if (cosine[i - 1] == 0.0F || cosine[i] == 0.0F || cosine[i + 1] == 0.0F) continue;
         const double middle_m = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        CHECK(cosine[i] == test::approx(depth_m / middle_m).epsilon(0.005));
+        CHECK(cosine[i] == approx(depth_m / middle_m).epsilon(0.005));
         ++bins;
     }
     CHECK(bins > 30);

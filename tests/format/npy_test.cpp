@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("npy: the data begin at a multiple of 64 bytes, whatever the shape") {
     for (const std::size_t rows : {1, 10, 1000, 10000, 100000}) {
         const std::string header = npy_header({"<f4", {rows, 3}, true});

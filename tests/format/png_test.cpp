@@ -5,9 +5,6 @@
 #include "core/hash.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using sonarsim::test::TemporaryFolder;
-
 namespace {
 
 constexpr OIIO::TypeDesc type_of(std::uint8_t) {

@@ -6,8 +6,6 @@
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// No pixel is NaN, infinite, negative or brighter than physics allows. The margin is that of the
@@ -106,7 +104,7 @@ TEST_CASE("a sonar on a floor, turned together every way: no image is anything b
     for (int i = 0; i < 400; ++i) {
         const Eigen::Quaterniond R = rotation_from_rpy(0.37 * i, 0.71 * i, 1.13 * i);
         Scene scene = plain_floor();
-        shapes::add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);
+        add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);
         for (Eigen::Vector3f& p : scene.vertices)
             p = R.toRotationMatrix().cast<float>() * (p - Eigen::Vector3f(0.31F, 0.17F, 0.0F));
         for (const EngineKind engine_kind : {EngineKind::rays, EngineKind::strips}) {
@@ -128,9 +126,9 @@ TEST_CASE("the error of rays falls with their goal") {
         double pitch_deg;
         Eigen::Vector3d position;
     };
-    const Subject subjects[] = {{"smooth", test::rough_floor(), 35.0, {0.3, 0.2, 4.0}},
-                                {"edgy", test::tank(), 15.0, {-2.4, 0.4, 1.5}},
-                                {"grazing", test::rough_floor(), 5.0, {0.3, 0.2, 1.3}}};
+    const Subject subjects[] = {{"smooth", rough_floor(), 35.0, {0.3, 0.2, 4.0}},
+                                {"edgy", tank(), 15.0, {-2.4, 0.4, 1.5}},
+                                {"grazing", rough_floor(), 5.0, {0.3, 0.2, 1.3}}};
     Sonar sonar = in_tank(SonarKind::imaging).sonar;
     for (const Subject& subject : subjects) {
         CAPTURE(subject.name);
@@ -175,8 +173,8 @@ TEST_CASE("an echo that is no number or out of range is dropped and counted, one
     // Bins from 2 to 3 m, 0.25 m each. Truncation towards zero would put 1.8 m into the first bin.
     CHECK(accumulate(echoes_at({1.8F, 3.2F, 3.01F, 2.0F, 2.99F}, {0.1F, 0.1F, 0.0F, 0.1F, 0.1F}),
                      {2.0F, 0.25F, 4}, sums) == 3);
-    CHECK(sums.weight(0) == test::approx(0.5));  // the half of 1.9 to 2.1 m that is in range
+    CHECK(sums.weight(0) == approx(0.5));  // the half of 1.9 to 2.1 m that is in range
     CHECK(sums.weight(1) == 0.0F);
     CHECK(sums.weight(2) == 0.0F);
-    CHECK(sums.weight(3) == test::approx(0.55));  // the part of 2.89 to 3.09 m below 3
+    CHECK(sums.weight(3) == approx(0.55));  // the part of 2.89 to 3.09 m below 3
 }

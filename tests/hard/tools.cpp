@@ -12,7 +12,7 @@ HardTrial at(SonarKind kind, const ConfigChange& change, const Eigen::Vector3d& 
              double pitch_deg, double yaw_deg) {
     SonarConfig config = default_sonar(kind);
     config.name = name_of(kind);
-    test::set_range(config, 0.2, 10.0, 128);
+    set_range(config, 0.2, 10.0, 128);
     config.azimuth_bins = 48;
     if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
     config.sector_deg = config.step_deg = 0.01;  // the head of a scanning sonar looks ahead
@@ -20,7 +20,7 @@ HardTrial at(SonarKind kind, const ConfigChange& change, const Eigen::Vector3d& 
     // A narrow cone over a floor fills two bins, and one bin more or less would dominate the error.
     config.opening_deg = 90.0;
     if (change) change(config);
-    return {test::noise_free(config),
+    return {noise_free(config),
             {rotation_from_rpy(0.0, radians(pitch_deg), radians(yaw_deg)), position}};
 }
 
@@ -53,7 +53,7 @@ HardTrial with_model(HardTrial trial, ModelKind model) {
 }
 
 Scene plain_floor() {
-    return shapes::floor_scene(30.0F, 0.0F, 0.5F);
+    return floor_scene(30.0F, 0.0F, 0.5F);
 }
 
 std::vector<float> plane_law(const HardContext& context, double reflection, double height_m) {
@@ -98,7 +98,7 @@ std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKi
 }
 
 std::vector<float> tank_image(const HardContext& context) {
-    return image_of(shapes::tank(), in_tank(context.kind), context.engine, context.model);
+    return image_of(tank(), in_tank(context.kind), context.engine, context.model);
 }
 
 }  // namespace sonarsim

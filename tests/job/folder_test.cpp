@@ -4,8 +4,6 @@
 #include "run/job/run_job.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,7 +1,5 @@
 #include "job/small_job.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
 namespace fs = std::filesystem;
 
 namespace {

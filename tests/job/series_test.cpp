@@ -12,8 +12,6 @@ namespace sonarsim {
 Writer make_strip_writer(const WriterContext& context);
 }
 
-using namespace sonarsim;
-using namespace sonarsim::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -62,11 +60,11 @@ TEST_CASE("series: soundings are those of the pings, and metadata what the sonar
         return Json::parse(read_file(out / name, 1 << 20)).at("measured");
     };
     const Json row = measured("sss/meta/000003.json");
-    CHECK(row.at("altitude_m").get<double>() == test::approx(1.5));
+    CHECK(row.at("altitude_m").get<double>() == approx(1.5));
     for (const char* side : {"port", "starboard"})
         CHECK(std::fabs(row.at("first_return_m").at(side).get<double>() - 1.5) < 4.7 / 90);
     const Json column = measured("sounder/meta/000004.json");
-    CHECK(column.at("altitude_m").get<double>() == test::approx(1.5));
+    CHECK(column.at("altitude_m").get<double>() == approx(1.5));
     CHECK(std::fabs(column.at("depth_m").get<double>() - 1.5) < 2.0 * 2.7 / 60);
     CHECK(measured("mbes/meta/000000.json").at("soundings") == 40);
 }
@@ -100,7 +98,7 @@ TEST_CASE("series: a map has the means of the soundings in its cells") {
     }
     for (std::size_t i = 0; i < z.size(); ++i) {
         REQUIRE(std::isnan(z[i]) == (count[i] == 0));
-        if (count[i] > 0) REQUIRE(z[i] == test::approx(sum[i] / count[i]));
+        if (count[i] > 0) REQUIRE(z[i] == approx(sum[i] / count[i]));
     }
 }
 

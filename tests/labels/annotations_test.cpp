@@ -2,9 +2,6 @@
 #include "support/draws.h"
 #include "support/labelled.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The objects of a scene, of which the first is a floor and background.
@@ -101,7 +98,7 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
         CHECK(wall.shadow.first_bin >= wall.range_first);
         // Exact coverage by triangles finds the same bins, which have no other owner.
         const auto exact = static_cast<double>(std::ranges::count(found.labels.shadow, 2));
-        CHECK(static_cast<double>(wall.shadow_bins) == test::approx(exact).epsilon(0.01));
+        CHECK(static_cast<double>(wall.shadow_bins) == approx(exact).epsilon(0.01));
         // From its upper edge to its lower corners.
         CHECK(wall.range_m > std::hypot(r, sonar_m - h));
         CHECK(wall.range_m < std::hypot(r, 0.3, sonar_m));

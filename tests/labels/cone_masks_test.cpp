@@ -3,9 +3,6 @@
 
 #include "labels/cone_fan.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// Bins along x, beams along y, half-open.
@@ -125,7 +122,7 @@ double decibels_in(const std::vector<int>& bins, int shift, const std::vector<fl
 
 }  // namespace
 
-TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(test::sanitized)) {
+TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(sanitized)) {
     Uniform draw(7);
     std::array<Sonar, spacings.size()> sonars;
     for (const Spacing spacing : spacings)

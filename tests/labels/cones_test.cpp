@@ -2,9 +2,6 @@
 
 #include "labels/cone_fan.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The sums of all echoes, direct and by multipath.
@@ -35,7 +32,7 @@ Sums sums_of_images(const TracedPing& traced, const Sonar& sonar, const Scene& s
 TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's samples cover") {
     Uniform draw(27);
     const Sonar sonar = wide_fan(spacings[0]);
-    for (int n = 0; n < (test::sanitized ? 3 : 20); ++n) {
+    for (int n = 0; n < (sanitized ? 3 : 20); ++n) {
         CAPTURE(n);
         Thing thing;
         thing.middle = draw.between(3.0, 6.0) * direction_of(radians(draw.between(-35.0, 35.0)),
@@ -74,7 +71,7 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
 
 TEST_CASE("cone labels: objects alone have the bins and shadows that they have beside background") {
     Uniform draw(58);
-    for (int n = 0; n < (test::sanitized ? 2 : 12); ++n) {
+    for (int n = 0; n < (sanitized ? 2 : 12); ++n) {
         CAPTURE(n);
         Scene scene = floor_scene(20.0F, -2.0F, 0.4F);
         for (int k = 0; k < 3; ++k) {
@@ -148,7 +145,7 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
         REQUIRE(labels.direct > 0.0);
         REQUIRE(labels.multipath > 0.0);
         const double factor = image.direct / labels.direct;
-        CHECK(image.multipath / labels.multipath == test::approx(factor).epsilon(0.02));
+        CHECK(image.multipath / labels.multipath == approx(factor).epsilon(0.02));
     }
 }
 

@@ -3,9 +3,6 @@
 #include "support/labelled.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 Sonar height_sonar(double elevation_deg = 40.0) {

@@ -5,9 +5,6 @@
 #include "support/labelled.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The echo of each object in each bin, [beams, range bins, objects], by rays alone: a ray at angle
@@ -41,7 +38,7 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
         const Labelled out = label(scene, sonar, Pose{}, type);
         // Solid angles of the same elevations are as their azimuths.
         REQUIRE(out.labels.visible_share.size() == 2);
-        CHECK(out.labels.visible_share[0] == test::approx(1.0 - panel / wall).epsilon(0.02));
+        CHECK(out.labels.visible_share[0] == approx(1.0 - panel / wall).epsilon(0.02));
         CHECK(out.labels.visible_share[1] == 1.0F);
         for (int j = 0; j < out.labels.beams; ++j) {
             const double a = sonar.azimuth_edges_rad[j];
@@ -93,11 +90,11 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
             agree += out.labels.object[k] == 2 && out.labels.second[k] == 1;
             share += out.labels.share[k];
             const float sum = out.labels.share[k] + out.labels.second_share[k];
-            CHECK(sum == test::approx(1.0).epsilon(1e-5));
+            CHECK(sum == approx(1.0).epsilon(1e-5));
         }
         REQUIRE(occupied > 100.0);
         CHECK(agree / occupied > 0.98);
-        CHECK(share / occupied == test::approx(0.75).epsilon(0.02));
+        CHECK(share / occupied == approx(0.75).epsilon(0.02));
     }
 }
 
@@ -144,7 +141,7 @@ TEST_CASE(
 }
 
 TEST_CASE("labels: in the tank the objects are those that rays without number find" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     const Scene scene = tank();
     SonarConfig config = small_imaging();
     config.range_bins = 512;

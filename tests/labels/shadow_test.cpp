@@ -6,9 +6,6 @@
 #include "support/draws.h"
 #include "support/labelled.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The bins that hold surface behind other surface, [beams, range bins], by rays alone.

@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 using Ids = std::vector<std::uint16_t>;

@@ -3,9 +3,6 @@
 #include "support/calibrated.h"
 #include "support/labelled.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 TEST_SUITE("labels") {
     // A tall wall stands on a floor. The bins behind it are in its shadow with or without the
     // floor's echo through it, and the label of that echo is the floor.

@@ -2,8 +2,6 @@
 
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 std::string repeated(const std::string& piece, std::size_t bytes) {
@@ -106,5 +104,3 @@ TEST_CASE("messages stay short and printable") {
     CHECK(shown("abcdefg", 6) == "abcdef...");
     CHECK(shown("abc\xc3\xa4", 4) == "abc...");  // no half character
 }
-
-}  // namespace sonarsim

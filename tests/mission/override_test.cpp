@@ -1,7 +1,5 @@
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 std::string set_refusal(const std::string& setting) {
@@ -79,5 +77,3 @@ TEST_CASE("an override that cannot be read") {
     CHECK(parse(list, {"sensors.fls.mount.rpy_deg.0=9"}).sensors[0].mount.rpy_deg[0] == 9.0);
     CHECK(set_refusal("name=" + std::string(5000, '/')).size() < 300);
 }
-
-}  // namespace sonarsim

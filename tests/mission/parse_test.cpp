@@ -3,8 +3,6 @@
 #include "input/mission/preset.h"
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 /// A mission in `folder` whose only sensor is `sensor`, written in one line.
@@ -17,7 +15,7 @@ Mission mission_with(const std::filesystem::path& folder, const std::string& sen
 }
 
 std::string refusal_of_preset(const std::filesystem::path& folder, const std::string& sensor) {
-    return test::fault_of([&] { mission_with(folder, sensor); });
+    return fault_of([&] { mission_with(folder, sensor); });
 }
 
 }  // namespace
@@ -70,7 +68,7 @@ TEST_CASE("numbers are decimal and booleans are true and false") {
 }
 
 TEST_CASE("load_mission reads a file and refuses what is none") {
-    const test::TemporaryFolder temporary;
+    const TemporaryFolder temporary;
     const std::filesystem::path& folder = temporary.path;
     const auto file = folder / "harbour.v2.yaml";
     std::ofstream(file) << smallest_mission;
@@ -88,7 +86,7 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
 }
 
 TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     std::ofstream(folder.path / "p.yaml")
         << "kind: imaging\nmodel: calibrated\nrange_max_m: 30\n"
            "instrument:\n  frequency_hz: 7e5\n  beam: {width_deg: 1.5, side_lobe_db: -20}\n";
@@ -106,7 +104,7 @@ TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
 }
 
 TEST_CASE("what is wrong with a preset is said where it stands") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     CHECK(refusal_of_preset(folder.path, "{preset: none.yaml}").find("there is no preset") !=
           std::string::npos);
     std::ofstream(folder.path / "typo.yaml") << "kind: imaging\nrange_maxm: 3\n";
@@ -127,7 +125,7 @@ TEST_CASE("values that are read: engines, labels, classes, water, sensors in the
     CHECK(parse(smallest_mission + "name: 5\n").name == "5");
     CHECK(parse(smallest_mission +
                 "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n")
-              .water.sound_speed_m_s == test::approx(1550.744).epsilon(1e-6));
+              .water.sound_speed_m_s == approx(1550.744).epsilon(1e-6));
     CHECK(parse(smallest_mission +
                 "    model: calibrated\n    azimuth_deg: 60\n    instrument: {beam: "
                 "{view_azimuth_deg: 60}}\n")
@@ -148,5 +146,3 @@ TEST_CASE("values that are read: engines, labels, classes, water, sensors in the
     CHECK(mission.sensors[2].name == "A-_9");
     CHECK(reads_back(mission));
 }
-
-}  // namespace sonarsim

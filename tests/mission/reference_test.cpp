@@ -2,8 +2,6 @@
 
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 TEST_CASE("every key has a meaning, and a default unless it is required or free text") {
     for (const SectionReference& section : mission_reference(sonar_keys())) {
         for (const KeyReference& key : section.keys) {
@@ -46,5 +44,3 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
         CHECK(yaml_of(parse(smallest_mission, settings)) == yaml_of(mission));
     }
 }
-
-}  // namespace sonarsim

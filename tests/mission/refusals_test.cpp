@@ -1,7 +1,5 @@
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 const std::string files = "scene: {file: a, materials: b}\ntrajectory: {file: c}\n";
@@ -121,9 +119,7 @@ TEST_CASE("a value outside its range is refused at its place") {
 }
 
 TEST_CASE("every fault is reported at its place") {
-    const auto faults = [](const std::string& text) {
-        return test::fault_of([&] { parse(text); });
-    };
+    const auto faults = [](const std::string& text) { return fault_of([&] { parse(text); }); };
     CHECK(faults(smallest_mission +
                  "    azimut_deg: 60\n    range_bins: many\n    range_min_m: -1\n"
                  "output: {fan: yes, polr: true}\nseed: -1\n") ==
@@ -243,5 +239,3 @@ TEST_CASE("particles: what is refused, and where") {
                   particles("paper"));
     CHECK(refusal(before + points + particles("calibrated")).empty());
 }
-
-}  // namespace sonarsim

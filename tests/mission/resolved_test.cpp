@@ -7,8 +7,6 @@
 #include "input/mission/value_types.h"
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 /// A mission in which nothing has its default and every number needs all its digits.
@@ -110,5 +108,3 @@ TEST_CASE("missions: the keys that differ are named, with both values") {
           " (objects: not given there, [] here; objects.0.x: 1 there, not given here)");
     CHECK(differing_keys("seed: [", one) == "");
 }
-
-}  // namespace sonarsim

@@ -1,8 +1,6 @@
 #include "input/mission/files.h"
 #include "mission/fixtures.h"
 
-namespace sonarsim {
-
 namespace {
 
 const std::string composed = R"(
@@ -118,7 +116,7 @@ TEST_CASE("what is refused of stock, clutter and areas") {
     };
     begins("  scatter: [{name: a, stock: [tire]}]\n",
            "4:31: the stock has no 'tire' (did you mean 'tyre'?)");
-    const std::string several = test::fault_of([&] {
+    const std::string several = fault_of([&] {
         parse(head + "  scatter: [{name: a, stock: [tire, can, nett]}]\n" + tail + "ph: 8\n");
     });
     for (const char* const words :
@@ -134,5 +132,3 @@ TEST_CASE("what is refused of stock, clutter and areas") {
     begins("  clutter: {stock: [net]}\n", "4:12: 'clutter' needs the key 'density_per_m2'");
     begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:32: min_m must be below max_m");
 }
-
-}  // namespace sonarsim

@@ -5,8 +5,6 @@
 #include "mission/fixtures.h"
 #include "support/statistics.h"
 
-namespace sonarsim {
-
 namespace {
 
 constexpr std::uint32_t draws = 20'000;
@@ -21,7 +19,7 @@ std::pair<double, double> moments(const VaryConfig& rule, Function f) {
     std::vector<double> values;
     for (std::uint32_t k = 0; k < draws; ++k)
         values.push_back(f(number(rule, k)));
-    return {test::mean(values), test::deviation(values)};
+    return {mean(values), deviation(values)};
 }
 
 }  // namespace
@@ -95,7 +93,7 @@ TEST_CASE("draws: whole numbers and choices are equally likely, both ends includ
 // Factors of 2 and 3 alone, so each value names what it was multiplied from.
 TEST_CASE(
     "variants: a scale multiplies what other rules have drawn, else the mission's own value") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::filesystem::path file = folder.path / "m.yaml";
     const std::string scale =
         "  - {key: sensors.fls.noise.add_sigma, scale: [2, 2]}\n"
@@ -108,7 +106,7 @@ TEST_CASE(
     };
     const Variants own = variants_of("");
     CHECK(own[3].sensors[0].noise.add_sigma == 0.2);
-    CHECK(own[3].water.density_kg_m3 == test::approx(1.02 * WaterConfig{}.density_kg_m3));
+    CHECK(own[3].water.density_kg_m3 == approx(1.02 * WaterConfig{}.density_kg_m3));
     const Variants drawn =
         variants_of("  - {key: sensors.fls.noise, choice: [{add_sigma: 0.3}, {add_sigma: 0.5}]}\n");
     std::set<double> found;
@@ -119,5 +117,3 @@ TEST_CASE(
     }
     CHECK(found == std::set<double>{0.6, 1.0});
 }
-
-}  // namespace sonarsim

@@ -6,9 +6,6 @@
 #include "support/patches.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr int tests = 9;  // p-values in this file, for Sidak's correction
@@ -90,11 +87,11 @@ TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / l
         const double late = echoes.range_m[k] - 5.0;
         CHECK(late >= 0.0);
         // Ranges near 5 m are floats 5e-7 apart: w is known to 1e-6, its exponential to 1e-5.
-        CHECK(echoes.intensity[k] == test::approx(std::exp(-late / lambda)).epsilon(2e-4));
+        CHECK(echoes.intensity[k] == approx(std::exp(-late / lambda)).epsilon(2e-4));
         w.push_back(-lambda * std::log(static_cast<double>(echoes.intensity[k])));
     }
     CHECK(ks_p_value(w, [](double x) { return 1.0 - std::exp(-x / lambda); }) > sidak(tests));
-    CHECK(mean(w) / lambda == test::approx(1.0).epsilon(0.02));
+    CHECK(mean(w) / lambda == approx(1.0).epsilon(0.02));
     Echoes steady = row_of_cells(1000);
     add_range_noise(steady, {.lambda_m = lambda, .fades = false},
                     stream_key(1, 2, 3, Stream::range_noise));
@@ -186,7 +183,7 @@ TEST_CASE("negative pixels become zero and are counted") {
     CHECK(std::ranges::min(image) == 0.0F);
     CHECK(static_cast<std::uint64_t>(std::ranges::count(image, 0.0F)) == negative);
     // P(0.5 + N(0, 1) < 0) = Phi(-0.5) = 0.3085, standard deviation 0.0046 over 10,000.
-    CHECK(static_cast<double>(negative) / 3085.0 == test::approx(1.0).epsilon(0.07));
+    CHECK(static_cast<double>(negative) / 3085.0 == approx(1.0).epsilon(0.07));
 }
 
 TEST_CASE("a row becomes a streak when its share at normal incidence reaches the threshold") {
@@ -221,8 +218,8 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
             CHECK(echoes.intensity[0] == 0.25F);
             const float nearest = echoes.range_m[0] - echoes.half_m[0];
             const float farthest = echoes.range_m[0] + echoes.half_m[0];
-            CHECK(nearest == test::approx(5.0 - along).epsilon(1e-6));
-            CHECK(farthest == test::approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
+            CHECK(nearest == approx(5.0 - along).epsilon(1e-6));
+            CHECK(farthest == approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
         }
     }
 }

@@ -2,9 +2,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 // The complete noise model on a whole image, against the equations written down as plainly as
 // possible: every sample cut into points, each point with the draw of its cell, the standard
 // library's distributions, one loop after the other.

@@ -2,9 +2,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A sonar in tank() whose model has every term.

@@ -2,7 +2,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "support/test.h"
 
-using namespace sonarsim;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -17,10 +16,10 @@ constexpr Rgb white{255, 255, 255};
 /// A floor of 40 m at z = 0 with a box of 1 x 2 x 3 m on it, and a vehicle above the origin.
 Assembly box_on_a_floor(double height_m, double yaw) {
     Assembly assembly;
-    assembly.scene = test::empty_scene();
-    const std::uint32_t material = test::add_material(assembly.scene, 0.5F);
-    test::add_floor(assembly.scene, 20.0F, 0.0F, material);
-    test::add_box(assembly.scene, {5.0F, 2.0F, 0.0F}, {6.0F, 4.0F, 3.0F}, material);
+    assembly.scene = empty_scene();
+    const std::uint32_t material = add_material(assembly.scene, 0.5F);
+    add_floor(assembly.scene, 20.0F, 0.0F, material);
+    add_box(assembly.scene, {5.0F, 2.0F, 0.0F}, {6.0F, 4.0F, 3.0F}, material);
     assembly.scene.bounds_min = {-20.0, -20.0, 0.0};
     assembly.scene.bounds_max = {20.0, 20.0, 3.0};
     assembly.trajectory = {{0.0, {rotation_from_rpy(0.0, 0.0, yaw), {0.0, 0.0, height_m}}}};
@@ -92,7 +91,7 @@ TEST_CASE("plan: x to the right, y up, one scale, and a line of 18 pixels where 
         CHECK(east.y() == west.y());
         const double px_per_m = (east.x() - west.x()) / 30.0;
         // 400 rows show the scene's 40 m.
-        CHECK(px_per_m == test::approx(10.0).epsilon(0.02));
+        CHECK(px_per_m == approx(10.0).epsilon(0.02));
         CHECK(is_about(north.x() - west.x(), 15.0 * px_per_m));
         CHECK(is_about(east.y() - north.y(), 15.0 * px_per_m));
         const Vector2d here = 0.5 * (west + east);
@@ -115,7 +114,7 @@ TEST_CASE("heights: the highest surface below the vehicle, where it is") {
                        static_cast<std::size_t>(at.x())];
     };
     const std::vector<float> above = heights_below(*engine, {0.0, 0.0, 8.0}, frame);
-    CHECK(height_at(above, 5.5, 3.0) == test::approx(3.0).epsilon(1e-5));
+    CHECK(height_at(above, 5.5, 3.0) == approx(3.0).epsilon(1e-5));
     for (const auto& [x, y] : {std::pair(-5.5, 3.0), std::pair(5.5, -3.0), std::pair(3.0, 5.5)})
         CHECK(std::fabs(height_at(above, x, y)) < 1e-5F);
     CHECK(std::isnan(height_at(above, 25.0, 0.0)));

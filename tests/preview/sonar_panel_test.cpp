@@ -4,14 +4,12 @@
 #include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-
 namespace {
 
 Sonar sonar_of(SonarKind kind, double range_max_m, int range_bins) {
     SonarConfig config = default_sonar(kind);
     config.name = "test";
-    test::set_range(config, 0.5, range_max_m, range_bins);
+    set_range(config, 0.5, range_max_m, range_bins);
     return make_sonar(config, {});
 }
 
@@ -40,7 +38,7 @@ Sonar imaging() {
     config.name = "test";
     config.azimuth_deg = 90.0;
     config.azimuth_bins = 90;
-    test::set_range(config, 0.0, 10.0, 100);
+    set_range(config, 0.0, 10.0, 100);
     return make_sonar(config, {});
 }
 
@@ -104,7 +102,7 @@ TEST_CASE("sonar panel: brightness finds itself, and the scale of the echoes cha
     const SonarPanel faint = panel_of(0x1p-20F);
     CHECK(faint.picture.pixels == usual.picture.pixels);
     CHECK(faint.white == usual.white * 0x1p-20);
-    CHECK(usual.white == test::approx(98.0).epsilon(0.04));
+    CHECK(usual.white == approx(98.0).epsilon(0.04));
 }
 
 TEST_CASE("sonar panel: a waterfall has port on the left, a row per ping and marks at this one") {

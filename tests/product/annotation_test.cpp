@@ -3,8 +3,6 @@
 #include "simulate/product/picture.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 using Ids = std::vector<std::uint16_t>;
@@ -59,7 +57,7 @@ TEST_CASE("contrast: the level of an object over that next to it at the same ran
     const BinBox box{4, 5, 0, 1};
     const auto found = contrast_db(map, map.object, 2, box, is_background);
     REQUIRE(found.has_value());
-    CHECK(*found == test::approx(6.0206).epsilon(1e-4));
+    CHECK(*found == approx(6.0206).epsilon(1e-4));
     // Nothing next to it but its like: no surroundings.
     std::ranges::fill(object, std::uint16_t{2});
     CHECK_FALSE(contrast_db(map, map.object, 2, {0, 8, 0, 2}, is_background).has_value());
@@ -79,16 +77,16 @@ TEST_CASE("contrast: in a full turn the surroundings go on over the seam") {
     };
     object[11] = object[0] = 2;
     level[11] = level[0] = 8.0F;
-    CHECK(contrast_of(true, {0, 11, 0, 0}) == test::approx(6.0206).epsilon(1e-4));
+    CHECK(contrast_of(true, {0, 11, 0, 0}) == approx(6.0206).epsilon(1e-4));
     CHECK(over_seam({12, 1, object, {}, level, true}, object, 2, {0, 11, 0, 0}).first_line == -1);
     // Without a seam the object is as wide as the picture: 8 over (4 x 2 + 6 x 100) / 10.
-    CHECK(contrast_of(false, {0, 11, 0, 0}) == test::approx(-8.8081).epsilon(1e-4));
+    CHECK(contrast_of(false, {0, 11, 0, 0}) == approx(-8.8081).epsilon(1e-4));
     // An object of the line 0 alone: 11 is background as dark as 10.
     object[11] = 1;
     level[11] = 2.0F;
     level[1] = level[2] = 6.0F;
-    CHECK(contrast_of(true, {0, 0, 0, 0}) == test::approx(3.0103).epsilon(1e-4));
-    CHECK(contrast_of(false, {0, 0, 0, 0}) == test::approx(1.2494).epsilon(1e-4));
+    CHECK(contrast_of(true, {0, 0, 0, 0}) == approx(3.0103).epsilon(1e-4));
+    CHECK(contrast_of(false, {0, 0, 0, 0}) == approx(1.2494).epsilon(1e-4));
 }
 
 // 40 ranges of 13 lines with exponential speckle of the mean 1; behind them noise of the same mean

@@ -1,8 +1,6 @@
 #include "simulate/product/soundings.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("detect return: a bright stretch of any place and length is found exactly") {
     // A run that is one bin longer or shorter than a stretch of n bins of brightness b over m bins
     // of 0 in all has the contrast b n (1 - n / m) / sqrt(n) times sqrt(n / (n + 1)), or times
@@ -16,8 +14,8 @@ TEST_CASE("detect return: a bright stretch of any place and length is found exac
             CHECK(run.begin == begin);
             CHECK(run.end == begin + length);
             const double expected = 0.5 * std::sqrt(length) * (1.0 - length / 100.0);
-            CHECK(run.contrast == test::approx(expected));
-            CHECK(run.rival == test::approx(0.0).epsilon(1e-12));
+            CHECK(run.contrast == approx(expected));
+            CHECK(run.rival == approx(0.0).epsilon(1e-12));
         }
     }
 }
@@ -30,8 +28,8 @@ TEST_CASE("detect return: a second surface is its rival") {
     const DetectedReturn run = detect_return(beam);
     CHECK(run.begin == 20);
     CHECK(run.end == 24);
-    CHECK(run.contrast == test::approx(3.78));
-    CHECK(run.rival == test::approx(2.89));
+    CHECK(run.contrast == approx(3.78));
+    CHECK(run.rival == approx(2.89));
 }
 
 TEST_CASE("detect return: nothing stands out of a level beam, or of none") {

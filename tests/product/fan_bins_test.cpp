@@ -3,15 +3,13 @@
 #include "simulate/product/fan.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-
 namespace {
 
 Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
-    test::set_range(config, 1.0, 10.0, 90);
+    set_range(config, 1.0, 10.0, 90);
     config.azimuth_bins = 40;
     if (!equal_azimuth) {
         config.model = ModelKind::calibrated;
@@ -81,7 +79,7 @@ TEST_CASE("fan of ids: a pixel has the bin that its centre lies in") {
         // The area of the sector, r^2 a / 2, in pixels.
         const double area = 0.5 * (100.0 - 1.0) * radians(azimuth_deg);
         const double pixels = area / (fan.frame.pixel_m * fan.frame.pixel_m);
-        CHECK(inside / pixels == test::approx(1.0).epsilon(0.01));
+        CHECK(inside / pixels == approx(1.0).epsilon(0.01));
     }
 }
 
@@ -118,7 +116,7 @@ TEST_CASE("even kernel: whatever the place, the same noise, the right centroid, 
             high = std::max(high, m.squares);
         }
         CHECK(high / low < 1.05);
-        if (extent <= 1.0) CHECK(high == test::approx(0.5).epsilon(0.02));
-        if (extent > 4.0) CHECK(high == test::approx(1.0 / extent).epsilon(0.1));
+        if (extent <= 1.0) CHECK(high == approx(0.5).epsilon(0.02));
+        if (extent > 4.0) CHECK(high == approx(1.0 / extent).epsilon(0.1));
     }
 }

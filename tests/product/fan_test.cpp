@@ -2,15 +2,13 @@
 
 #include "support/sonars.h"
 
-using namespace sonarsim;
-
 namespace {
 
 Sonar fan_sonar(double azimuth_deg, double range_min_m, int range_bins, int beams) {
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
-    test::set_range(config, range_min_m, 10.0, range_bins);
+    set_range(config, range_min_m, 10.0, range_bins);
     config.azimuth_bins = beams;
     return make_sonar(config, {});
 }
@@ -129,7 +127,7 @@ TEST_CASE("fan: the frame fits the sector") {
         CHECK(frame.width == one.width);
         CHECK(frame.height == one.height);
     }
-    CHECK(fan_frame(fan_sonar(60, 0, 512, 8), 1024).pixel_m == test::approx(10.0 / 1024));
+    CHECK(fan_frame(fan_sonar(60, 0, 512, 8), 1024).pixel_m == approx(10.0 / 1024));
     CHECK(fan_frame(fan_sonar(120, 0, 4096, 8), 0).width == 1024);
 }
 
@@ -170,7 +168,7 @@ TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left
                 CHECK(std::fabs(range / sum - 0.5 * (r0 + r1)) < off_m);
                 CHECK(std::fabs(beside / sum) < off_rad);
                 const double pixels = 0.5 * (a1 - a0) * (r1 * r1 - r0 * r0) / (pixel_m * pixel_m);
-                CHECK(sum == test::approx(pixels).epsilon(0.05 + 0.5 / pixels));
+                CHECK(sum == approx(pixels).epsilon(0.05 + 0.5 / pixels));
             }
         }
     }
@@ -199,7 +197,7 @@ TEST_CASE("fan: a uniform ping gives a uniform fan with smooth edges and a black
             CHECK(lit_outside == 0);
             const double sector_m2 = 0.5 * radians(azimuth_deg) * (10.0 * 10.0 - 0.7 * 0.7);
             const double sector_px = sector_m2 / (map.frame.pixel_m * map.frame.pixel_m);
-            CHECK(area == test::approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
+            CHECK(area == approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
         }
     }
 }
@@ -225,7 +223,7 @@ TEST_CASE("fan: edges are anti-aliased") {
 }
 
 TEST_CASE("fan: the table gives what direct resampling gives, on random sonars" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     // A table that is off by a bin or a phase changes most pixels of noise. Rounding to floats
     // changes those whose value or place lies next to a border.
     std::mt19937 random(23);

@@ -3,8 +3,6 @@
 #include "simulate/product/picture.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("bottom: the leading edge, to the bin") {
     CHECK_FALSE(first_return({}));
     CHECK_FALSE(first_return(std::vector<float>(20, 0.0F)));
@@ -109,7 +107,7 @@ TEST_CASE("gain: one occupied value in a hundred is brighter") {
     for (int i = 1; i <= 1000; ++i)
         values.push_back(static_cast<float>(i) * 1e-3F);
     gain.add(values);
-    CHECK(gain.white() == test::approx(0.99).epsilon(0.035));
+    CHECK(gain.white() == approx(0.99).epsilon(0.035));
     CHECK(shade(0.25F, 1.0F) == 0.5F);
     CHECK(shade(7.0F, 1.0F) == 1.0F);
     CHECK(shade(-1.0F, 1.0F) == 0.0F);
@@ -117,9 +115,9 @@ TEST_CASE("gain: one occupied value in a hundred is brighter") {
 
 TEST_CASE("picture: axis marks are round, nothing is drawn outside") {
     CHECK(round_up_125(1.0) == 1.0);
-    CHECK(round_up_125(0.03) == test::approx(0.05));
+    CHECK(round_up_125(0.03) == approx(0.05));
     CHECK(round_down_125(4.9) == 2.0);
-    CHECK(round_down_125(0.02) == test::approx(0.02));
+    CHECK(round_down_125(0.02) == approx(0.02));
     CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});
     Picture picture(10, 8, backdrop);
     fill(picture, -5, -5, 100, 6, ink);

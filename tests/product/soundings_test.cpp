@@ -5,15 +5,13 @@
 #include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// Three beams of 40 degrees, 100 bins of 10 cm from 0.
 Sonar three_beams(bool scale_with_range = false) {
     SonarConfig config = default_sonar(SonarKind::profiling);
     config.name = "mbes";
-    test::set_range(config, 0.0, 10.0, 100);
+    set_range(config, 0.0, 10.0, 100);
     config.azimuth_bins = 3;
     config.noise.scale_with_range = scale_with_range;
     return make_sonar(config, {});
@@ -29,7 +27,7 @@ Ping dark(const Sonar& sonar) {
 
 /// A flat bottom 40 m below the origin.
 Scene deep_bottom() {
-    return test::floor_scene(200.0F, -40.0F, 0.5F);
+    return floor_scene(200.0F, -40.0F, 0.5F);
 }
 
 /// 1500 m/s + `gradient` z.
@@ -68,12 +66,12 @@ TEST_CASE("soundings: the middle of the strongest run, in the world") {
     CHECK(std::isnan(soundings[0].range_m));
     CHECK(std::isnan(soundings[0].position.z()));
     CHECK(soundings[0].quality == 0.0);
-    CHECK(soundings[1].range_m == test::approx(5.05));
+    CHECK(soundings[1].range_m == approx(5.05));
     CHECK((soundings[1].position - Eigen::Vector3d(100.0, 200.0, 1.95)).norm() < 1e-9);
-    CHECK(soundings[1].quality == test::approx(1.0));
+    CHECK(soundings[1].quality == approx(1.0));
     const double range = 6.15;
-    CHECK(soundings[2].range_m == test::approx(range));
-    CHECK(soundings[2].quality == test::approx(1.0));
+    CHECK(soundings[2].range_m == approx(range));
+    CHECK(soundings[2].quality == approx(1.0));
     const Eigen::Vector3d expected(100.0 - range * std::sin(radians(40.0)), 200.0,
                                    7.0 - range * std::cos(radians(40.0)));
     CHECK((soundings[2].position - expected).norm() < 1e-9);

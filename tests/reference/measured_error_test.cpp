@@ -7,9 +7,6 @@
 #include "support/lattices.h"
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int threads) {
@@ -155,7 +152,7 @@ TEST_CASE("measured errors: cells larger than bins leave the choice of bins to t
     };
     const double few = scored(200'000);
     CHECK(few > 200.0);
-    CHECK(scored(2'000'000) == test::approx(few).epsilon(0.02));
+    CHECK(scored(2'000'000) == approx(few).epsilon(0.02));
 }
 
 TEST_CASE("measured errors: only what is measured is warned of, in digits as people write them") {
@@ -163,9 +160,9 @@ TEST_CASE("measured errors: only what is measured is warned of, in digits as peo
     mission.engine = EngineKind::automatic;
     std::vector<std::optional<MeasuredError>> errors(mission.sensors.size());
     errors[0] = MeasuredError{{{0, std::nullopt, 0.18}, {4, 0.01, 0.002}, {6, 0.03, 0.015}}};
-    CHECK(*errors[0]->mean() == test::approx(0.02));
+    CHECK(*errors[0]->mean() == approx(0.02));
     CHECK(errors[0]->worst()->pose == 6);
-    CHECK(errors[0]->min_measurable() == test::approx(0.36));
+    CHECK(errors[0]->min_measurable() == approx(0.36));
     CHECK(error_warnings(mission, errors).empty());
     CHECK(json_of(*errors[0])["pings"][0]["relative_l1"].is_null());
     errors[0]->pings[2].relative_l1 = 0.0342;

@@ -4,9 +4,6 @@
 #include "simulate/reference/reference_cast.h"
 #include "support/calibrated.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 View small_view() {
@@ -58,7 +55,7 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
     const int last = static_cast<int>((H / std::sin(radians(20.0)) - 0.5) / view.bin_m()) - 2;
     for (int i = first; i <= last; ++i) {
         const double r = view.range_min_m + (i + 0.5) * view.bin_m();
-        CHECK(reference.intensity[i * 20 + 10] == test::approx(R * H / r).epsilon(2e-3));
+        CHECK(reference.intensity[i * 20 + 10] == approx(R * H / r).epsilon(2e-3));
     }
 }
 
@@ -76,7 +73,7 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area") {
                                        view.bin_m()) +
                       1;
         const double r = view.range_min_m + (i + 0.5) * view.bin_m();
-        CHECK(reference.intensity[i * 20 + j] == test::approx(0.5 * 4.0 / r).epsilon(5e-3));
+        CHECK(reference.intensity[i * 20 + j] == approx(0.5 * 4.0 / r).epsilon(5e-3));
     }
 }
 
@@ -111,8 +108,8 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
     std::vector<float> occupied = reference.intensity;
     std::erase(occupied, 0.0F);
     REQUIRE(occupied.size() == 2);
-    CHECK(occupied[0] / wire == test::approx(1.0).epsilon(0.01));
-    CHECK(occupied[1] / (0.5 * R) == test::approx(1.0).epsilon(0.01));
+    CHECK(occupied[0] / wire == approx(1.0).epsilon(0.01));
+    CHECK(occupied[1] / (0.5 * R) == approx(1.0).epsilon(0.01));
     CHECK(reference.noise < 0.01);
 }
 
@@ -135,13 +132,13 @@ TEST_CASE("rays and points of the surface together add up to its area") {
     for (const std::uint32_t start : {0U, 1U}) {
         CAPTURE(start);
         const SurfaceSums plate_sums = sums_over(plates, 64, start);
-        CHECK(plate_sums.near_m2 / (0.4 * 0.5) == test::approx(1.0).epsilon(5e-3));
-        CHECK(plate_sums.far_m2 / (1.2 * 1.2 - 0.6 * 0.75) == test::approx(1.0).epsilon(5e-3));
+        CHECK(plate_sums.near_m2 / (0.4 * 0.5) == approx(1.0).epsilon(5e-3));
+        CHECK(plate_sums.far_m2 / (1.2 * 1.2 - 0.6 * 0.75) == approx(1.0).epsilon(5e-3));
         const SurfaceSums sphere_sums = sums_over(sphere, 16, start);
         CHECK(sphere_sums.near_m2 / (2.0 * pi * R * R * (1.0 - R / D)) ==
-              test::approx(1.0).epsilon(5e-3));
+              approx(1.0).epsilon(5e-3));
         CHECK(sphere_sums.solid_angle / (2.0 * pi * (1.0 - std::sqrt(1.0 - R * R / (D * D)))) ==
-              test::approx(1.0).epsilon(5e-3));
+              approx(1.0).epsilon(5e-3));
     }
 }
 
@@ -197,7 +194,7 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
     const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
     // The same rays to the same points; the corners differ by the rounding of a transform.
-    CHECK(a.rays_per_bin / b.rays_per_bin == test::approx(1.0).epsilon(1e-3));
+    CHECK(a.rays_per_bin / b.rays_per_bin == approx(1.0).epsilon(1e-3));
     CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
     CHECK(a.noise < 0.01);
     // Points on the copies' triangles find them, not only rays over directions.
@@ -211,12 +208,12 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
 TEST_CASE("image errors by hand") {
     const std::vector<float> truth{1.0F, 1.0F, 0.0F, 0.0F};
     const std::vector<float> image{1.0F, 0.0F, 1.0F, 0.0F};
-    CHECK(image_error(image, truth).relative_l1 == test::approx(1.0));
-    CHECK(image_error(image, truth).miss_rate == test::approx(0.5));
+    CHECK(image_error(image, truth).relative_l1 == approx(1.0));
+    CHECK(image_error(image, truth).miss_rate == approx(0.5));
     // The third bin, which the image alone fills, is not scored.
     const std::vector<std::uint8_t> scored{1, 1, 0, 1};
-    CHECK(image_error(image, truth, scored).relative_l1 == test::approx(0.5));
-    CHECK(image_error(image, truth, scored).miss_rate == test::approx(0.5));
+    CHECK(image_error(image, truth, scored).relative_l1 == approx(0.5));
+    CHECK(image_error(image, truth, scored).miss_rate == approx(0.5));
     const std::vector<float> dark(4, 0.0F);
     CHECK(image_error(dark, dark).relative_l1 == 0.0);
     CHECK(image_error(image, dark).relative_l1 == 1.0);

@@ -2,9 +2,6 @@
 
 #include "support/small_mission.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A report on the first sonar of a mission, whose poses are those of small_assembly().

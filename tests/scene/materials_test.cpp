@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 const std::string header = "material,density_kg_m3,sound_speed_m_s\n";
@@ -100,7 +98,7 @@ TEST_CASE("materials: reflection against water, finite at the limits of what is 
         scene.materials.push_back({material.name, 0.0, 0.0, 0.0F});
     resolve_materials(scene, table, Water{1000.0, 1500.0});
     // z = 7850 * 5900 = 46.315e6, z_w = 1.5e6: ((46.315 - 1.5) / (46.315 + 1.5))^2 = 0.878453.
-    CHECK(scene.materials[0].reflection == test::approx(0.878453).epsilon(1e-6));
+    CHECK(scene.materials[0].reflection == approx(0.878453).epsilon(1e-6));
     CHECK(scene.materials[0].density_kg_m3 == 7850.0);
     for (const Water& water : {Water{1e-9, 1e-9}, Water{1e9, 1e9}, Water{1e9, 1e-9}}) {
         resolve_materials(scene, table, water);

@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("objects: patterns") {
     CHECK(fits_pattern("*", ""));
     CHECK(fits_pattern("ship_*", "ship_mast"));

@@ -7,9 +7,6 @@
 #include "input/scene/placing/scatter.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A bottom of 40 x 40 cells of half a metre about the origin. height() computes its height
@@ -156,7 +153,7 @@ std::vector<Surface> put(const std::vector<Surface>& shapes, ScatterConfig rule,
 }  // namespace
 
 TEST_CASE("placing: a thousand objects rest on the bottom within a millimetre, and none meet" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     const Bottom bottom(Waves::surface());
     const std::vector<Surface> shapes{box(0.3, 0.2, 0.1), box(0.5, 0.05, 0.05),
                                       box(0.15, 0.15, 0.4)};
@@ -241,7 +238,7 @@ TEST_CASE("placing: on a plane a box that is aligned lies flat on it") {
 }
 
 TEST_CASE("placing: room beside hulls of all sizes is that beside each hull one by one" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     auto draw = [counter = std::uint32_t{0}](double low, double high) mutable {
         const PhiloxBlock block = philox({counter++, 0, 0, 0}, PhiloxKey{});
         return low + (high - low) * unit_double(block.x0, block.x1);
@@ -276,7 +273,7 @@ TEST_CASE("placing: room beside hulls of all sizes is that beside each hull one 
 }
 
 TEST_CASE("placing: the time to scatter objects grows with their number, not with its square" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     Surface plane;
     for (const auto& [x, y] : {std::pair(-500, -500), {500, -500}, {500, 500}, {-500, 500}})
         plane.vertices.emplace_back(x, y, 0.0);
@@ -313,7 +310,7 @@ TEST_CASE("placing: distances between hulls") {
 }
 
 TEST_CASE("bottom: the next surface below a point is that of all triangles one by one" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     // Three layers of waves at UTM coordinates, and points above, between, below and outside.
     Surface layers;
     const Surface one = Waves::surface();

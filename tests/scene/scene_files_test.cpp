@@ -1,10 +1,8 @@
 #include "scene/gltf/builder.h"
 #include "support/source_folder.h"
 
-using namespace sonarsim;
-
 TEST_CASE("tank.glb is what the script writes, byte by byte, and 8 x 6 x 3 m large") {
-    const std::filesystem::path root = test::source_folder();
+    const std::filesystem::path root = source_folder();
     const TemporaryFolder folder;
     const std::string command = "python3 '" + (root / "scripts/make_scenes.py").string() +
                                 "' tank --out '" + folder.path.string() + "' > /dev/null";

@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// A grid of points on a closed surface, with two triangles a cell.

@@ -2,8 +2,6 @@
 
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
-
 TEST_CASE("summary: bounds, areas, materials, instances and what was dropped") {
     GltfBuilder gltf = one_triangle();
     // A second, rubber triangle of 3 x 4 m, and a primitive of points.

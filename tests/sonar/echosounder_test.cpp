@@ -3,9 +3,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 SonarConfig echosounder() {
@@ -39,7 +36,7 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
             const double r = bin_centre(sonar, i);
             if (r < H - bin_m || r > end + bin_m) CHECK(ping.at(i, 0) == 0.0F);
             if (r > H + bin_m && r < end - bin_m)
-                CHECK(ping.at(i, 0) == test::approx(R * H / r).epsilon(0.01));
+                CHECK(ping.at(i, 0) == approx(R * H / r).epsilon(0.01));
         }
     }
 }
@@ -61,7 +58,7 @@ TEST_CASE("echosounder: range noise does not fade") {
         float brightest = 0.0F;
         for (const float value : ping.intensity)
             brightest = std::max(brightest, value);
-        CHECK(brightest == test::approx(0.8).epsilon(1e-3));
+        CHECK(brightest == approx(0.8).epsilon(1e-3));
         latest = std::max(latest, detected_depth(sonar, ping) - 3.0);
     }
     CHECK(latest > 0.2);  // the largest of 20 draws of mean 0.3 m; below 0.2 once in 10^6

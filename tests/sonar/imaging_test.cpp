@@ -2,9 +2,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 Ping look(const Scene& scene, const Sonar& sonar, const Pose& pose) {

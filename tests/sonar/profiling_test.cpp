@@ -5,9 +5,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 SonarConfig profiling() {
@@ -35,7 +32,7 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
             const double off = soundings[j].range_m - H / std::cos(sonar.beam_azimuths_rad[j]);
             square += off * off;
             mean += off;
-            CHECK(soundings[j].quality == test::approx(1.0));
+            CHECK(soundings[j].quality == approx(1.0));
         }
         CAPTURE(H);
         CHECK(std::sqrt(square / 480.0) <= 0.25 * bin_m);
@@ -43,13 +40,13 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
         // Port is at the high azimuths: with the bow at yaw 1 it lies along (-sin 1, cos 1).
         const Eigen::Vector3d port = soundings.back().position - pose.translation;
         const double reach = H * std::tan(sonar.azimuth_edges_rad[479]);
-        CHECK(port.x() == test::approx(-std::sin(1.0) * reach).epsilon(0.02));
-        CHECK(port.y() == test::approx(std::cos(1.0) * reach).epsilon(0.02));
+        CHECK(port.x() == approx(-std::sin(1.0) * reach).epsilon(0.02));
+        CHECK(port.y() == approx(std::cos(1.0) * reach).epsilon(0.02));
         CHECK(std::fabs(port.z() + H) < 2.0 * bin_m);
     }
 }
 
-TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(test::sanitized)) {
+TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(sanitized)) {
     // Range noise delays an echo and dims it: exp(-w / lambda) twice gives a mean of half of
     // lambda, 2 cm. Under strong additive noise some are lost, of which few may pass for good.
     Scene scene = floor_scene(200.0F, 0.0F, 0.15F);
@@ -91,7 +88,7 @@ TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(te
 }
 
 TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is met" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     const Scene scene = rough_floor();
     const Caster caster(scene);
     const auto engine = make_rays_engine(scene);

@@ -4,25 +4,23 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-
 namespace {
 
 SonarConfig scanning_sonar() {
     SonarConfig config = default_sonar(SonarKind::scanning);
     config.name = "head";
     config.step_deg = 10.0;
-    test::set_range(config, 0.2, 6.0, 290);  // 2 cm each
+    set_range(config, 0.2, 6.0, 290);  // 2 cm each
     return config;
 }
 
 /// A sphere of 0.2 m about (3, 0, 0) turned by `azimuth_deg` to port.
 Scene sphere_at(double azimuth_deg) {
-    Scene scene = shapes::empty_scene();
+    Scene scene = empty_scene();
     const double azimuth = radians(azimuth_deg);
     const Eigen::Vector3f centre(static_cast<float>(3.0 * std::cos(azimuth)),
                                  static_cast<float>(3.0 * std::sin(azimuth)), 0.0F);
-    shapes::add_sphere(scene, centre, 0.2F, shapes::add_material(scene, 0.5F));
+    add_sphere(scene, centre, 0.2F, add_material(scene, 0.5F));
     return scene;
 }
 
@@ -40,14 +38,14 @@ TEST_CASE("scanning: the head goes round and round, or to and fro over a sector"
     SonarConfig config = scanning_sonar();
     const std::vector<double> round = scan_angles_rad(config);
     REQUIRE(round.size() == 36);
-    CHECK(round.front() == test::approx(radians(-175)));
-    CHECK(round.back() == test::approx(radians(175)));
+    CHECK(round.front() == approx(radians(-175)));
+    CHECK(round.back() == approx(radians(175)));
     config.sector_deg = 40.0;
     const std::vector<double> sector = scan_angles_rad(config);
     REQUIRE(sector.size() == 8);
     const double expected[] = {-15, -5, 5, 15, 15, 5, -5, -15};
     for (int k = 0; k < 8; ++k)
-        CHECK(sector[k] == test::approx(radians(expected[k])));
+        CHECK(sector[k] == approx(radians(expected[k])));
     // A step that does not divide the sector is rounded to one that does.
     config.step_deg = 9.0;
     CHECK(scan_steps(config) == 4);
@@ -73,12 +71,12 @@ TEST_CASE("scanning: the metadata tell the angle of the head, `every` counts its
     SonarConfig config = scanning_sonar();
     config.every = 3;
     const Sonar sonar = make_sonar(config, {});
-    CHECK(head_angle_rad(sonar, 0) == test::approx(radians(-175)));
-    CHECK(head_angle_rad(sonar, 6) == test::approx(radians(-155)));
+    CHECK(head_angle_rad(sonar, 0) == approx(radians(-175)));
+    CHECK(head_angle_rad(sonar, 6) == approx(radians(-155)));
     const Scene scene = sphere_at(0.0);
     const auto engine = make_rays_engine(scene);
     const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, 6});
     const auto json = measured({sonar, Pose{}, 6, ping}, *engine);
-    CHECK(json.at("head_angle_rad") == test::approx(radians(-155)));
+    CHECK(json.at("head_angle_rad") == approx(radians(-155)));
     CHECK(json.at("altitude_m").is_null());
 }

@@ -6,9 +6,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/labelled.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double turn_deg_s = 40.0;

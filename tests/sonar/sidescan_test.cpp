@@ -3,9 +3,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr float R = 0.5F;   // reflection of the bottom
@@ -42,9 +39,9 @@ TEST_CASE(
     for (int side = 0; side < 2; ++side) {
         for (int i = 0; i < first; ++i)
             CHECK(ping.at(i, side) == 0.0F);
-        CHECK(ping.at(first, side) == test::approx(R).epsilon(0.01));
+        CHECK(ping.at(first, side) == approx(R).epsilon(0.01));
         for (int i = first + 1; i < ping.range_bins; ++i)
-            CHECK(ping.at(i, side) == test::approx(R * H / bin_centre(sonar, i)).epsilon(0.01));
+            CHECK(ping.at(i, side) == approx(R * H / bin_centre(sonar, i)).epsilon(0.01));
     }
     for (const int side : {Side::port, Side::starboard}) {
         const double range_m = first_return_m(sonar, ping, side).value();

@@ -13,7 +13,7 @@ class LatticeBuilder {
   public:
     LatticeBuilder(Draws& draws, Scene& scene)
         : draws_(draws), scene_(scene), welded_(draws.half()) {
-        material_ = shapes::add_material(scene, draws.between(0.2F, 0.9F));
+        material_ = add_material(scene, draws.between(0.2F, 0.9F));
         scene.instances.emplace_back("lattice");
     }
 
@@ -43,7 +43,7 @@ class LatticeBuilder {
 
   private:
     void triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-        shapes::add_triangle(scene_, a, b, c, material_);
+        add_triangle(scene_, a, b, c, material_);
     }
 
     Draws& draws_;
@@ -250,7 +250,7 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
 Lattice draw_lattice(std::uint32_t number) {
     Draws draws(number);
     Lattice out;
-    out.scene = shapes::empty_scene();
+    out.scene = empty_scene();
     const LatticeShape& shape = known_shapes[static_cast<std::size_t>(
         draws.whole(0, static_cast<int>(known_shapes.size()) - 1))];
     out.shape = shape.name;
@@ -276,12 +276,12 @@ Lattice draw_lattice(std::uint32_t number) {
     for (Vector3f& p : out.scene.vertices)
         p = centre + size * (turn * p);
     if (draws.half()) {
-        const std::uint32_t mud = shapes::add_material(out.scene, 0.2F);
+        const std::uint32_t mud = add_material(out.scene, 0.2F);
         const float x = distance + size * draws.between(0.5F, 1.2F);  // a slope behind the lattice
         const float lean = draws.between(0.0F, 2.0F) * x;
         const float w = 4.0F * x;
-        shapes::add_quad(out.scene, {x - lean, -w, -w}, {x - lean, w, -w}, {x + lean, w, w},
-                         {x + lean, -w, w}, mud);
+        add_quad(out.scene, {x - lean, -w, -w}, {x - lean, w, -w}, {x + lean, w, w},
+                 {x + lean, -w, w}, mud);
     }
     return out;
 }

@@ -66,3 +66,7 @@ std::string fault_of(Work work) {
 
 /// CAPTURE of several values.
 #define CAPTURE_ALL(...) INFO(#__VA_ARGS__ " = ", sonarsim::test::listed(__VA_ARGS__))
+
+// All tests are about these.
+using namespace sonarsim;
+using namespace sonarsim::test;

@@ -4,8 +4,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 bool same_bits(float a, float b) {

@@ -3,9 +3,6 @@
 #include "support/mapped_floor.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double six_db = 3.9810717055349722;  // 10^0.6
@@ -248,7 +245,7 @@ TEST_CASE("a second surface has the strength of its texel") {
         int count = 0;
         for (std::size_t k = 0; k < once.size(); ++k) {
             if (once[k] == 0.0F) continue;
-            CHECK(both[k] / once[k] == test::approx(4.0).epsilon(0.01));
+            CHECK(both[k] / once[k] == approx(4.0).epsilon(0.01));
             ++count;
         }
         CHECK(count > 20);

@@ -4,9 +4,6 @@
 #include "support/patches.h"
 #include "support/sonars.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 // The sonar sees the second point of a bounce or not: the tracer decides it to within rounding.
 
 namespace {

@@ -3,8 +3,6 @@
 #include "support/source_folder.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// Every number of a struct once: as many lines as fit into it, each with a name of its own.
@@ -45,7 +43,7 @@ TEST_CASE("the tables name every counter and every timer once") {
 }
 
 TEST_CASE("the model page says what is counted and timed") {
-    const std::string page = read_file(test::source_folder() / "docs/model.md", 1 << 20);
+    const std::string page = read_file(source_folder() / "docs/model.md", 1 << 20);
     for (const std::string& rows :
          {rows_of(ping_counters), rows_of(multipath_counters), rows_of(ping_timers)}) {
         CAPTURE(rows);

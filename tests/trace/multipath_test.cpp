@@ -5,9 +5,6 @@
 #include "support/bounces.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The expected echo of a sample at p_i, from the geometry of the scene; none if the intensity is
@@ -103,7 +100,7 @@ TEST_CASE("multipath between two perpendicular walls") {
         }
         REQUIRE(closed > 300);
         CHECK(static_cast<double>(found.bounces.size()) ==
-              test::approx(static_cast<double>(closed)).epsilon(0.02));
+              approx(static_cast<double>(closed)).epsilon(0.02));
     }
 }
 
@@ -152,9 +149,9 @@ TEST_CASE("a footprint wider than a beam lights all beams that it covers, over a
                 weight += out.echoes.weight[k];
                 if (!seam)
                     CHECK(out.echoes.range_m[k] ==
-                          test::approx(5.0 + 0.1 * (j - 20) / 3.4).epsilon(0.002));
+                          approx(5.0 + 0.1 * (j - 20) / 3.4).epsilon(0.002));
             }
         }
-        CHECK(weight == test::approx(2.0));
+        CHECK(weight == approx(2.0));
     }
 }

@@ -3,9 +3,6 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 Particle particle_at(double x, double y, double z) {

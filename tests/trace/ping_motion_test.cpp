@@ -3,9 +3,6 @@
 #include "support/draws.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double sound_m_s = 1500.0;
@@ -23,10 +20,9 @@ TEST_CASE("ping motion: past a point, sideways") {
     const PingMotion sideways = moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard}) {
         const Eigen::Vector3d past = measured_place(sideways, shape, {60.0, 0.0, 0.0});
-        CHECK(past.norm() == test::approx(750.0 * time).epsilon(1e-12));
+        CHECK(past.norm() == approx(750.0 * time).epsilon(1e-12));
         const double moved_m = (shape == ViewShape::fan ? 5.0 : 2.5) * time;
-        CHECK(std::atan2(past.y(), past.x()) ==
-              test::approx(-std::atan(moved_m / 60.0)).epsilon(1e-9));
+        CHECK(std::atan2(past.y(), past.x()) == approx(-std::atan(moved_m / 60.0)).epsilon(1e-9));
     }
 }
 
@@ -83,8 +79,8 @@ TEST_CASE("ping motion: surface goes to the beam that receives it") {
         REQUIRE(samples.beam(j).size() == 1);
         const Sample& sample = samples.beam(j)[0];
         CHECK((sample.position - before.items[j].position).norm() < 1e-3F);
-        CHECK(sample.height_m == test::approx(75.0F).epsilon(1e-5));
-        CHECK(sample.normal.dot(sample.position) == test::approx(-75.0F).epsilon(1e-4));
+        CHECK(sample.height_m == approx(75.0F).epsilon(1e-5));
+        CHECK(sample.normal.dot(sample.position) == approx(-75.0F).epsilon(1e-4));
     }
 }
 
@@ -111,10 +107,10 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
             REQUIRE(samples.beam(j).size() == 2);
             const auto& [own, next] = std::pair(samples.beam(j)[0], samples.beam(j)[1]);
             if (wedge == 0.0F) {
-                CHECK(next.area_m2 == test::approx(2.0F * share).epsilon(0.01));
+                CHECK(next.area_m2 == approx(2.0F * share).epsilon(0.01));
                 const auto azimuth = std::atan2(next.position.y(), next.position.x());
                 CHECK(azimuth ==
-                      test::approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0))).epsilon(0.01));
+                      approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0))).epsilon(0.01));
             }
             CHECK(beam_of(view, own.position) == j);
             CHECK(beam_of(view, next.position) == j);
@@ -122,7 +118,7 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
         for (int j = 1; j < 9; ++j) {  // the parts of one footprint
             const Sample& part = samples.beam(j)[0];
             const Sample& rest = samples.beam(j - 1)[1];
-            CHECK(part.area_m2 + rest.area_m2 == test::approx(2.0F).epsilon(1e-5));
+            CHECK(part.area_m2 + rest.area_m2 == approx(2.0F).epsilon(1e-5));
             const Eigen::Vector3f both =
                 (part.area_m2 * part.position + rest.area_m2 * rest.position) / 2.0F;
             const auto middle = std::atan2(both.y(), both.x());

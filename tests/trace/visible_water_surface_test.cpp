@@ -2,9 +2,6 @@
 
 #include "support/bounces.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 constexpr double surface_m = 5.0;
@@ -24,8 +21,8 @@ double area_between(Scene scene, const View& view, const Pose& pose, double from
     for (const Sample& sample : visible.items) {
         CHECK(sample.material == scene.materials.size());
         const double range = sample.position.norm();
-        CHECK(sample.height_m == test::approx(surface_m - pose.translation.z()));
-        CHECK(-sample.normal.dot(sample.position) == test::approx(sample.height_m).epsilon(1e-3));
+        CHECK(sample.height_m == approx(surface_m - pose.translation.z()));
+        CHECK(-sample.normal.dot(sample.position) == approx(sample.height_m).epsilon(1e-3));
         // The share of the sample's depth that lies between the two.
         const Eigen::Vector3f towards = sample.position.normalized();
         const double half =
@@ -50,7 +47,7 @@ TEST_CASE("water's surface: a cone that looks up sees a disc") {
         const double radius = surface_m * std::tan(radians(0.5 * opening_deg));
         const View view = view_to_surface(ViewShape::cone, opening_deg, opening_deg);
         CHECK(area_between(scene_below(), view, up, 0.0, 40.0) ==
-              test::approx(pi * radius * radius).epsilon(0.035));
+              approx(pi * radius * radius).epsilon(0.035));
     }
 }
 
@@ -61,7 +58,7 @@ TEST_CASE("water's surface: a fan that looks ahead sees a part of a ring") {
     for (const double from_m : {16.0, 25.0}) {
         const double to_m = 1.3 * from_m;
         CHECK(area_between(scene_below(), view, {}, from_m, to_m) ==
-              test::approx(0.5 * radians(60.0) * (to_m * to_m - from_m * from_m)).epsilon(0.03));
+              approx(0.5 * radians(60.0) * (to_m * to_m - from_m * from_m)).epsilon(0.03));
     }
 }
 
@@ -87,7 +84,7 @@ TEST_CASE("water's surface: a side-scan sonar sees it above") {
         };
         CHECK(area_between(c.below_m < 2.0 ? empty_scene() : scene_below(), view, down, c.from_m,
                            c.to_m) ==
-              test::approx(4.0 * std::sin(radians(1.0)) * (integral(c.to_m) - integral(c.from_m)))
+              approx(4.0 * std::sin(radians(1.0)) * (integral(c.to_m) - integral(c.from_m)))
                   .epsilon(0.03));
     }
 }

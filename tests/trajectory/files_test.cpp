@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 const std::string quaternion_header = "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
@@ -123,7 +121,7 @@ TEST_CASE("What write_tum writes reads back bit for bit, whatever the times") {
 }
 
 TEST_CASE("The name of the file says what it is") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::string csv = angle_header + "0,1,2,3,0,0,0\n";
     const std::string tum = "0 1 2 3 0 0 0 1\n";
     for (const auto& [name, text] :

@@ -1,8 +1,6 @@
 #include "input/trajectory/trajectory.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 Eigen::Quaterniond yawed(double yaw_deg) {

@@ -2,8 +2,6 @@
 #include "input/trajectory/patterns.h"
 #include "support/test.h"
 
-namespace sonarsim {
-
 TEST_CASE("Errors of single poses have their standard deviations, and no others move them") {
     const Trajectory truth{{0.0, {.translation = {0.0, 5.0, -10.0}}},
                            {10.0, {.translation = {10.0, 5.0, -10.0}}}};
@@ -33,12 +31,10 @@ TEST_CASE("Errors of single poses have their standard deviations, and no others 
             // The deviation of 2000 draws has the relative error 1 / sqrt(2 n), 1.6 %; four of
             // them are exceeded once in 16,000 runs.
             if (k == which) {
-                CHECK(std::sqrt(squares[k]) == test::approx(expected[k]).epsilon(4.0 * 0.0158));
+                CHECK(std::sqrt(squares[k]) == approx(expected[k]).epsilon(4.0 * 0.0158));
             } else {
                 CHECK(std::sqrt(squares[k]) < 1e-12);
             }
         }
     }
 }
-
-}  // namespace sonarsim

@@ -2,7 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -44,11 +43,10 @@ TEST_CASE("waypoints: constant speed along straight legs, on which the attitude 
     CHECK((position(poses[5]) - Vector3d(1.5, 2, 0)).norm() < 1e-14);
     CHECK((position(poses[10]) - Vector3d(3, 4, 0)).norm() < 1e-14);
     CHECK((position(poses[20]) - Vector3d(3, 4, -5)).norm() < 1e-14);
-    CHECK(heading(poses[5]) == test::approx(45));
-    CHECK(heading(poses[20]) == test::approx(90));
+    CHECK(heading(poses[5]) == approx(45));
+    CHECK(heading(poses[20]) == approx(90));
     for (std::size_t k = 1; k < poses.size(); ++k) {
-        CHECK((position(poses[k]) - position(poses[k - 1])).norm() ==
-              test::approx(0.5).epsilon(1e-12));
+        CHECK((position(poses[k]) - position(poses[k - 1])).norm() == approx(0.5).epsilon(1e-12));
     }
 }
 
@@ -77,12 +75,12 @@ TEST_CASE("lawnmower along x: lines, steps, headings and times") {
     CHECK((position(poses[450]) - Vector3d(30, 12.5, 3)).norm() < 1e-12);
     CHECK((position(poses[850]) - Vector3d(-10, 12.5, 3)).norm() < 1e-12);
     CHECK((position(poses[1750]) - Vector3d(-10, 22.5, 3)).norm() < 1e-12);
-    CHECK(heading(poses[200]) == test::approx(0).epsilon(1e-12));
+    CHECK(heading(poses[200]) == approx(0).epsilon(1e-12));
     CHECK(std::abs(turn(heading(poses[650]), 180)) < 1e-9);
-    CHECK(heading(poses[1100]) == test::approx(0).epsilon(1e-12));
+    CHECK(heading(poses[1100]) == approx(0).epsilon(1e-12));
     // Within a step the bow turns over +y: first to port, then to starboard.
-    CHECK(heading(poses[410]) == test::approx(36));
-    CHECK(heading(poses[860]) == test::approx(144));
+    CHECK(heading(poses[410]) == approx(36));
+    CHECK(heading(poses[860]) == approx(144));
 }
 
 TEST_CASE("lawnmower: without turns only the lines are left, at their times") {
@@ -106,19 +104,19 @@ TEST_CASE("lawnmower: without turns only the lines are left, at their times") {
 TEST_CASE("lawnmower: strips that do not fit exactly get equal margins") {
     // 20 m in strips of 8 m: three, at 15 - 8, 15 and 15 + 8.
     const Trajectory poses = lawnmower(survey(0.0, 8.0));
-    CHECK(position(poses.front()).y() == test::approx(7));
-    CHECK(position(poses.back()).y() == test::approx(23));
+    CHECK(position(poses.front()).y() == approx(7));
+    CHECK(position(poses.back()).y() == approx(23));
     // One strip wider than the area: one line along its middle, 40 s.
     const Trajectory one = lawnmower(survey(0.0, 50.0));
     CHECK(one.size() == 401);
-    CHECK(position(one.front()).y() == test::approx(15));
+    CHECK(position(one.front()).y() == approx(15));
     // 2.1 / 0.7, a little more than 3 in doubles, makes three lines of 10 m and two steps.
     const LawnmowerTrajectoryConfig exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
     CHECK(lawnmower(exact).size() == 315);
 }
 
 TEST_CASE("lawnmower: whatever the heading, swaths of the line spacing cover the rectangle" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     for (const double degrees_of_line : {0.0, 17.0, 45.0, 90.0, 133.0, -60.0, 180.0, 359.0}) {
         CAPTURE(degrees_of_line);
         LawnmowerTrajectoryConfig plan = survey(degrees_of_line, 4.0);
@@ -155,7 +153,7 @@ TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
     LawnmowerTrajectoryConfig plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
     const double diagonal = 10.0 * std::sqrt(2.0);
     Trajectory poses = lawnmower(plan);
-    CHECK(poses.back().t_s == test::approx(diagonal).epsilon(1e-3));
+    CHECK(poses.back().t_s == approx(diagonal).epsilon(1e-3));
     CHECK((position(poses.front()) - Vector3d(0, 0, 0)).norm() < 1e-9);
     // In four strips of d / 4 the outer lines have d / 2, the inner ones d; two of the steps
     // shift by d / 4, too.
@@ -163,5 +161,5 @@ TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
     poses = lawnmower(plan);
     const double step = diagonal / 4.0;
     const double expected = 2 * (diagonal / 2) + 2 * diagonal + 2 * std::hypot(step, step) + step;
-    CHECK(poses.back().t_s == test::approx(expected).epsilon(1e-3));
+    CHECK(poses.back().t_s == approx(expected).epsilon(1e-3));
 }

@@ -2,8 +2,6 @@
 #include "input/trajectory/patterns.h"
 #include "support/test.h"
 
-namespace sonarsim {
-
 namespace {
 
 Trajectory poses_on_the_spot(std::initializer_list<double> times_s) {
@@ -20,7 +18,7 @@ PhiloxKey wave_key(std::uint32_t seed) {
 }  // namespace
 
 TEST_CASE("Heave has the variance and the autocorrelation of the spectrum" *
-          doctest::skip(test::sanitized)) {
+          doctest::skip(sanitized)) {
     // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
     // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
     constexpr int seeds = 4000;
@@ -61,14 +59,12 @@ TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
     add_wave_motion(motion, wave_key(7), poses);
     for (const TimedPose& pose : poses) {
         // It heads along y.
-        CHECK(pose.T_world_vehicle.translation.x() == test::approx(1.0));
+        CHECK(pose.T_world_vehicle.translation.x() == approx(1.0));
         CHECK(std::fabs(pose.T_world_vehicle.translation.y() - 2.0) > 1e-3);
-        CHECK(pose.T_world_vehicle.translation.z() == test::approx(3.0));
+        CHECK(pose.T_world_vehicle.translation.z() == approx(3.0));
         const Rpy rpy = rpy_from_rotation(pose.T_world_vehicle.rotation);
         CHECK(std::fabs(rpy.roll) > 1e-4);
-        CHECK(rpy.pitch == test::approx(0.0));
-        CHECK(rpy.yaw == test::approx(0.5 * pi));
+        CHECK(rpy.pitch == approx(0.0));
+        CHECK(rpy.yaw == approx(0.5 * pi));
     }
 }
-
-}  // namespace sonarsim

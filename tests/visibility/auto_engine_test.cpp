@@ -3,8 +3,6 @@
 #include "simulate/water/sound_profile.h"
 #include "visibility/strips/fixtures.h"
 
-using namespace sonarsim;
-
 namespace {
 
 View auto_view(double relative_l1 = 0.03) {
@@ -22,11 +20,11 @@ bool same(const Samples& a, const Samples& b) {
 }  // namespace
 
 TEST_CASE("auto takes strips; multipath starts from rays") {
-    const Scene scene = test::tank();
+    const Scene scene = tank();
     const View view = auto_view();
     Pose pose;
     pose.translation = {0.0, 0.0, 1.5};
-    const Samples by_strips = test::visible(scene, view, pose);
+    const Samples by_strips = visible(scene, view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
     for (const EngineKind type : {EngineKind::automatic, EngineKind::strips}) {
         const auto engine = make_engine(scene, {.type = type, .octree = {}});
@@ -36,7 +34,7 @@ TEST_CASE("auto takes strips; multipath starts from rays") {
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
-    Scene scene = test::floor_scene(20.0F, 0.0F, 0.3F, 1025);
+    Scene scene = floor_scene(20.0F, 0.0F, 0.3F, 1025);
     REQUIRE(scene.triangles.size() > many_triangles);
     const Caster caster(scene);
     View view = auto_view(0.12);
@@ -51,7 +49,7 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
 
 TEST_CASE(
     "engine: the octree refuses copies and bodies, it and the strips profiles of sound speed") {
-    const Scene plain = test::tank();
+    const Scene plain = tank();
     Scene copies = plain;
     copies.copies.push_back({});
     Scene moving = plain;

@@ -4,8 +4,6 @@
 #include "simulate/water/water_ray.h"
 #include "support/patches.h"
 
-using namespace sonarsim;
-
 namespace {
 
 // Strong, so that the bending is large: arcs of 5 km.
@@ -14,7 +12,7 @@ constexpr double bent_bottom_m = -40.0;
 
 /// A flat bottom under water of one gradient, 1500 m/s at z = 0.
 Scene floor_under(double gradient) {
-    Scene scene = test::floor_scene(400.0F, static_cast<float>(bent_bottom_m), 0.5F, 16);
+    Scene scene = floor_scene(400.0F, static_cast<float>(bent_bottom_m), 0.5F, 16);
     scene.sound_profile = std::make_shared<const SoundProfile>(SoundProfile{
         {-100.0, 100.0}, {1500.0 - 100.0 * gradient, 1500.0 + 100.0 * gradient}, 1480.0});
     return scene;
@@ -60,15 +58,15 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
         const Eigen::Vector3d p = sample.position.cast<double>();
         const double range = p.norm();
         const Arc arc(std::asin((bent_pose.rotation * (p / range)).z()));
-        CHECK(range == test::approx(1480.0 * arc.time_s()).epsilon(2e-4));
+        CHECK(range == approx(1480.0 * arc.time_s()).epsilon(2e-4));
         CHECK(std::fabs(static_cast<double>(sample.height_m) / range + std::sin(arc.b)) < 2e-3);
         CHECK(static_cast<double>(-sample.normal.dot(sample.position)) / range ==
-              test::approx(-std::sin(arc.b)).epsilon(5e-3));
+              approx(-std::sin(arc.b)).epsilon(5e-3));
         // Sound that spreads over W X / cos(a) for each solid angle, with W = dX / da sin(b),
         // has the power of range^2 by that, both ways.
         const double across = std::fabs(arc.slope() * std::sin(arc.b));
         const double share = range * range * std::cos(arc.a) / (across * arc.distance_m());
-        CHECK(static_cast<double>(sample.strength) == test::approx(share * share).epsilon(2e-3));
+        CHECK(static_cast<double>(sample.strength) == approx(share * share).epsilon(2e-3));
     }
     // dA = X dX dazimuth, and dOmega = cos(a) da dazimuth, over the view.
     double true_area = 0.0;
@@ -86,7 +84,7 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
                          std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
         }
     }
-    CHECK(test::area_of(samples) == test::approx(true_area).epsilon(0.01));
+    CHECK(area_of(samples) == approx(true_area).epsilon(0.01));
 }
 
 TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
@@ -102,11 +100,11 @@ TEST_CASE("bent rays: without a gradient they are straight, and ranges are times
     // Every true place lies on the bottom, and the areas are about as large.
     for (const Sample& sample : with.items) {
         const Eigen::Vector3d p = bent_pose.rotation * sample.position.cast<double>();
-        CHECK(1500.0 / 1480.0 * p.z() == test::approx(bent_bottom_m).epsilon(1e-4));
-        CHECK(sample.strength == test::approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
+        CHECK(1500.0 / 1480.0 * p.z() == approx(bent_bottom_m).epsilon(1e-4));
+        CHECK(sample.strength == approx(std::pow(1480.0 / 1500.0, 4.0)).epsilon(1e-4));
     }
     // The area of a patch follows from its middle, and both have patches of their own.
-    CHECK(test::area_of(with) == test::approx(test::area_of(without)).epsilon(0.01));
+    CHECK(area_of(with) == approx(area_of(without)).epsilon(0.01));
 }
 
 TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line") {
@@ -114,9 +112,9 @@ TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line")
     // passes 0.25 m above the line to it, and over a sill that is 0.1 m above the line.
     for (const double gradient : {bent_gradient, -bent_gradient}) {
         Scene scene = floor_under(gradient);
-        const std::uint32_t material = test::add_material(scene, 0.5F);
-        test::add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
-                       {50.0F, -5.0F, -19.9F}, material);
+        const std::uint32_t material = add_material(scene, 0.5F);
+        add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
+                 {50.0F, -5.0F, -19.9F}, material);
         const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
         const Samples samples = engine->visible_surface(bent_view(), bent_pose);
         bool is_visible = false;
@@ -143,7 +141,7 @@ TEST_CASE("bent rays: a sight line goes on behind what it met") {
     ray.origin = 30.0F * direction;
     Intersection later{};
     engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
-    CHECK(later.distance_m + 30.0F == test::approx(first.distance_m).epsilon(1e-5));
+    CHECK(later.distance_m + 30.0F == approx(first.distance_m).epsilon(1e-5));
     ray.origin = 1.001F * first.distance_m * direction;
     engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
     CHECK(!std::isfinite(later.distance_m));

@@ -2,9 +2,6 @@
 
 #include "support/draws.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// The distance of a facet's plane along a ray.

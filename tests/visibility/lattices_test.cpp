@@ -4,12 +4,10 @@
 #include "simulate/visibility/caster.h"
 #include "support/calibrated.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// The image of a drawn scene by at most `rays`, in two independent halves.
-Reference reference_of(const test::Lattice& lattice, std::uint64_t rays) {
+Reference reference_of(const Lattice& lattice, std::uint64_t rays) {
     const View view = make_sonar(lattice.sonar, {}).settings.view;
     return cast_reference(Caster(lattice.scene), lattice.scene, view, Pose{}, {0.0005, 16.0, rays});
 }
@@ -19,7 +17,7 @@ Reference reference_of(const test::Lattice& lattice, std::uint64_t rays) {
 TEST_CASE("lattices: the distance of a reference's halves is about its error") {
     // More rays move the image by about as much as the halves of the smaller cast are apart.
     for (const std::uint32_t number : {2U, 13U}) {
-        const test::Lattice lattice = test::draw_lattice(number);
+        const Lattice lattice = draw_lattice(number);
         const Reference few = reference_of(lattice, 200'000);
         const Reference many = reference_of(lattice, 1'600'000);
         CHECK(many.noise < few.noise);
@@ -32,12 +30,12 @@ TEST_CASE("lattices: the distance of a reference's halves is about its error") {
 TEST_CASE("lattices: posts narrower than a column are seen") {
     // Profiling sonars over posts of stairs and rails of a ladder.
     const auto error = [](std::uint32_t number, double goal) -> double {
-        const test::Lattice lattice = test::draw_lattice(number);
+        const Lattice lattice = draw_lattice(number);
         const Reference reference = reference_of(lattice, 400'000);
         CHECK(reference.noise < 0.05);
-        Sonar sonar = test::noise_free(lattice.sonar, goal);
+        Sonar sonar = noise_free(lattice.sonar, goal);
         sonar.T_vehicle_sensor = Pose{};
-        return image_error(test::expected_image(sonar, lattice.scene, EngineKind::strips),
+        return image_error(expected_image(sonar, lattice.scene, EngineKind::strips),
                            reference.intensity, reference.scored)
             .relative_l1;
     };
@@ -47,7 +45,7 @@ TEST_CASE("lattices: posts narrower than a column are seen") {
 
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
     // A net below an echosounder. The mean of two triangles without area was no number.
-    const test::Lattice lattice = test::draw_lattice(14253);
+    const Lattice lattice = draw_lattice(14253);
     const auto engine = make_engine(lattice.scene, {.type = EngineKind::strips, .octree = {}});
     const View view = make_sonar(lattice.sonar, {0.1}).settings.view;
     for (const Sample& sample : engine->visible_surface(view, Pose{}).items)

@@ -1,12 +1,9 @@
 #include "simulate/visibility/octree/octree_engine.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
-    Scene scene = test::empty_scene();
-    test::add_quad(scene, {4, -1, -1}, {4, 1, -1}, {4, 1, 1}, {4, -1, 1},
-                   test::add_material(scene, 0.5F));
+    Scene scene = empty_scene();
+    add_quad(scene, {4, -1, -1}, {4, 1, -1}, {4, 1, 1}, {4, -1, 1}, add_material(scene, 0.5F));
     const View view{radians(60.0), radians(60.0), 0.5, 8.0, 100, 60, 0.03};
     for (const double leaf_m : {0.1, 0.05}) {
         const Samples samples = make_octree_engine(scene, {leaf_m})->visible_surface(view, Pose{});
@@ -15,23 +12,22 @@ TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
         CHECK(static_cast<double>(samples.items.size()) < (cubes + 1.0) * (cubes + 1.0) + 1.0);
         for (const Sample& sample : samples.items) {
             CHECK(std::fabs(sample.position.x() - 4.0F) <= 0.51F * static_cast<float>(leaf_m));
-            CHECK(sample.normal.x() == test::approx(-1.0));
+            CHECK(sample.normal.x() == approx(-1.0));
         }
     }
 }
 
 TEST_CASE("octree: the first cluster of leaves hides what is more than four leaves behind it") {
-    Scene scene = test::empty_scene();
-    const auto steel = test::add_material(scene, 0.9F);
-    const auto wall = test::add_material(scene, 0.5F);
-    test::add_quad(scene, {3, -0.6F, -0.6F}, {3, 0.6F, -0.6F}, {3, 0.6F, 0.6F}, {3, -0.6F, 0.6F},
-                   steel);
+    Scene scene = empty_scene();
+    const auto steel = add_material(scene, 0.9F);
+    const auto wall = add_material(scene, 0.5F);
+    add_quad(scene, {3, -0.6F, -0.6F}, {3, 0.6F, -0.6F}, {3, 0.6F, 0.6F}, {3, -0.6F, 0.6F}, steel);
     // At the plate a pixel is at least as large as a leaf, so that none is empty.
     const View view{radians(60.0), radians(60.0), 0.5, 5.0, 100, 60, 0.03};
     for (const float behind : {0.12F, 1.0F}) {
         Scene both = scene;
         const float x = 3.0F + behind;
-        test::add_quad(both, {x, -2, -2}, {x, 2, -2}, {x, 2, 2}, {x, -2, 2}, wall);
+        add_quad(both, {x, -2, -2}, {x, 2, -2}, {x, 2, 2}, {x, -2, 2}, wall);
         int in_shadow = 0;
         for (const Sample& sample :
              make_octree_engine(both, {0.05})->visible_surface(view, Pose{}).items) {
@@ -44,9 +40,9 @@ TEST_CASE("octree: the first cluster of leaves hides what is more than four leav
 }
 
 TEST_CASE("octree: an empty scene has no leaves, and leaves may be too small for a scene") {
-    const Scene empty = test::empty_scene();
+    const Scene empty = empty_scene();
     const View view{radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
     CHECK(make_octree_engine(empty, {})->visible_surface(view, Pose{}).items.empty());
-    Scene scene = test::floor_scene(1e6F, 0.0F, 0.5F);
+    Scene scene = floor_scene(1e6F, 0.0F, 0.5F);
     CHECK_THROWS_AS(make_octree_engine(scene, {1e-3}), InputError);
 }

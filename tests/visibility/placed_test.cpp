@@ -5,9 +5,6 @@
 
 // Copies of shared meshes, and bodies that move.
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 namespace {
 
 /// A sphere of radius 1 m as a mesh that is placed.

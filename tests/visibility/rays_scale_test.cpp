@@ -1,14 +1,12 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// The samples of a tank with the sonar `height` above an extra floor, all in metres times `unit`.
 Samples samples_at(float height, double unit) {
-    Scene scene = test::tank();
-    test::add_floor(scene, 1.0F, 1.5F - height, 0);
+    Scene scene = tank();
+    add_floor(scene, 1.0F, 1.5F - height, 0);
     for (Eigen::Vector3f& p : scene.vertices)
         p *= static_cast<float>(unit);
     const View view{radians(60.0), radians(20.0), 0.0, unit * 10.0, 256, 32, 0.03};

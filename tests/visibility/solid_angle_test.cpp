@@ -1,21 +1,19 @@
 #include "simulate/visibility/make_engine.h"
 #include "visibility/strips/fixtures.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// A closed room with objects narrower than a beam.
 Scene room_with_poles() {
-    Scene scene = test::empty_scene();
-    const std::uint32_t material = test::add_material(scene, 0.5F);
-    test::add_box(scene, {-6.0F, -5.0F, -2.0F}, {6.0F, 5.0F, 2.0F}, material);
+    Scene scene = empty_scene();
+    const std::uint32_t material = add_material(scene, 0.5F);
+    add_box(scene, {-6.0F, -5.0F, -2.0F}, {6.0F, 5.0F, 2.0F}, material);
     for (int i = 0; i < 12; ++i) {
         const auto place = static_cast<float>(i);
-        test::add_pole(scene, {2.0F + 0.2F * place, -2.2F + 0.4F * place, -2.0F}, 0.01F, 3.0F,
-                       material, 8);
+        add_pole(scene, {2.0F + 0.2F * place, -2.2F + 0.4F * place, -2.0F}, 0.01F, 3.0F, material,
+                 8);
     }
-    test::add_sphere(scene, {2.5F, 0.3F, -1.0F}, 0.4F, material, 32);
+    add_sphere(scene, {2.5F, 0.3F, -1.0F}, 0.4F, material, 32);
     return scene;
 }
 
@@ -50,7 +48,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
             const View view = view_of(shape);
             const Samples samples = make_engine(scene, {.type = type, .octree = {}})
                                         ->visible_surface(view, T_world_sensor);
-            const double share = test::filled_sr(samples) / solid_angle(view);
+            const double share = filled_sr(samples) / solid_angle(view);
             CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), share);
             CHECK(std::fabs(share - 1.0) < 0.005);
         }

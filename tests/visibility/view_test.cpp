@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 TEST_CASE("the field of view in float agrees with beam_of") {
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         View view{radians(100.0), radians(40.0), 0.5, 10.0, 512, 128, 0.03};

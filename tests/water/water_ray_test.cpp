@@ -2,8 +2,6 @@
 
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// 1500 m/s at z = 0, with a gradient upwards of g down to -1000 m.
@@ -65,13 +63,12 @@ TEST_CASE("rays in a constant gradient are arcs of the radius c / (g cos)") {
                 advance(profile, 40.0, ray);
                 const double radius = std::hypot(ray.along_m - c / g * std::tan(elevation),
                                                  ray.height_m + 500.0 + c / g);
-                CHECK(radius ==
-                      test::approx(std::fabs(c / (g * std::cos(elevation)))).epsilon(1e-11));
+                CHECK(radius == approx(std::fabs(c / (g * std::cos(elevation)))).epsilon(1e-11));
                 const double snell = std::cos(ray.elevation_rad) / profile.speed_at(ray.height_m);
-                CHECK(snell == test::approx(std::cos(elevation) / c).epsilon(1e-11));
+                CHECK(snell == approx(std::cos(elevation) / c).epsilon(1e-11));
                 const double time_s =
                     (std::atanh(std::sin(elevation)) - std::atanh(std::sin(ray.elevation_rad))) / g;
-                CHECK(ray.time_s == test::approx(time_s).epsilon(1e-10));
+                CHECK(ray.time_s == approx(time_s).epsilon(1e-10));
             }
         }
     }
@@ -88,9 +85,9 @@ TEST_CASE("place, time and direction are those of a numerical integration across
         const WaterRay ray = after(profile, water_ray(profile, z, elevation), 300.0);
         const Going there = integrated(profile, {0.0, z, elevation, 0.0}, 300.0, 60000);
         // The integration does not see where within a step a layer ends.
-        CHECK(ray.along_m == test::approx(there.x).epsilon(1e-5));
+        CHECK(ray.along_m == approx(there.x).epsilon(1e-5));
         CHECK(std::fabs(ray.height_m - there.z) < 2e-3);
-        CHECK(ray.time_s == test::approx(there.t).epsilon(1e-6));
+        CHECK(ray.time_s == approx(there.t).epsilon(1e-6));
     }
 }
 
@@ -107,9 +104,9 @@ TEST_CASE("reciprocity: the way back is the way there, and its tube widens alike
             after(profile, water_ray(profile, there.height_m, -there.elevation_rad), 150.0);
         CHECK(std::fabs(back.along_m - there.along_m) < 1e-6);
         CHECK(std::fabs(back.height_m + 2.0) < 1e-6);
-        CHECK(back.time_s == test::approx(there.time_s).epsilon(1e-11));
+        CHECK(back.time_s == approx(there.time_s).epsilon(1e-11));
         CHECK(back.tube_m * profile.speed_at(there.height_m) ==
-              test::approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
+              approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
     }
 }
 
@@ -151,7 +148,7 @@ TEST_CASE("rays in Munk's profile have the cycles that WaveQ3D lists") {
                                                 {11.0, 58539.834823}, {14.0, 64977.771509}};
     for (const auto& known : listed) {
         for (const double side : {1.0, -1.0})
-            CHECK(cycle_of(side * known.first) == test::approx(known.second).epsilon(1e-5));
+            CHECK(cycle_of(side * known.first) == approx(known.second).epsilon(1e-5));
     }
 }
 
@@ -163,7 +160,7 @@ TEST_CASE("a tube is as wide as neighbouring rays are apart") {
         const WaterRay other = after(profile, water_ray(profile, -20.0, elevation + turn), 60.0);
         const double apart = (other.height_m - ray.height_m) * std::cos(ray.elevation_rad) -
                              (other.along_m - ray.along_m) * std::sin(ray.elevation_rad);
-        CHECK(ray.tube_m == test::approx(apart / turn).epsilon(1e-3));
+        CHECK(ray.tube_m == approx(apart / turn).epsilon(1e-3));
     }
 }
 
@@ -179,20 +176,20 @@ TEST_CASE("a place by range and direction, and level rays at a node end") {
     const Eigen::Vector3d direction(std::cos(a) * std::cos(azimuth),
                                     std::cos(a) * std::sin(azimuth), std::sin(a));
     const Eigen::Vector3d place = place_of(profile, {100.0, -50.0, 0.0}, direction, 1500.0 * time);
-    CHECK(place.x() == test::approx(100.0 + x * std::cos(azimuth)).epsilon(1e-9));
-    CHECK(place.y() == test::approx(-50.0 + x * std::sin(azimuth)).epsilon(1e-9));
-    CHECK(place.z() == test::approx(z).epsilon(1e-8));
+    CHECK(place.x() == approx(100.0 + x * std::cos(azimuth)).epsilon(1e-9));
+    CHECK(place.y() == approx(-50.0 + x * std::sin(azimuth)).epsilon(1e-9));
+    CHECK(place.z() == approx(z).epsilon(1e-8));
     // From the height of a node, rays bend by the layer that they lead into.
     const SoundProfile valley{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
     const WaterRay down = after(valley, water_ray(valley, -50.0, -0.3), 60.0);
     const WaterRay up = after(valley, water_ray(valley, -50.0, 0.3), 60.0);
-    CHECK(down.height_m + up.height_m == test::approx(-100.0).epsilon(1e-12));
-    CHECK(down.time_s == test::approx(up.time_s).epsilon(1e-12));
+    CHECK(down.height_m + up.height_m == approx(-100.0).epsilon(1e-12));
+    CHECK(down.time_s == approx(up.time_s).epsilon(1e-12));
     CHECK(valley.speed_at(down.height_m) > 1490.0);
     // In a channel a level ray stays at the node of the least speed.
     const SoundProfile channel{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
     const Eigen::Vector3d far = place_of(channel, {0.0, 0.0, -50.0}, {1.0, 0.0, 0.0}, 15000.0);
-    CHECK(far.x() == test::approx(14800.0).epsilon(1e-4));
+    CHECK(far.x() == approx(14800.0).epsilon(1e-4));
     CHECK(std::fabs(far.z() + 50.0) < 0.5);
 }
 
@@ -227,7 +224,7 @@ TEST_CASE(
         const double across =
             std::fabs((distance(a + 1e-5) - distance(a - 1e-5)) / 2e-5 * std::sin(b_of(a)));
         const double share = range * range * std::cos(a) / (across * distance(a));
-        CHECK(found.strength == test::approx(share * share).epsilon(2e-3));
+        CHECK(found.strength == approx(share * share).epsilon(2e-3));
         // The direction of arrival at the place, as it appears.
         Eigen::Vector3d arrives = place - source;
         arrives.z() = 0.0;

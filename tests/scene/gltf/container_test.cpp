@@ -1,7 +1,6 @@
 #include "input/scene/gltf/primitives.h"
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
 using nlohmann::json;
 
 namespace {

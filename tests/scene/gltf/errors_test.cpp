@@ -1,6 +1,5 @@
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
 using nlohmann::json;
 
 namespace {

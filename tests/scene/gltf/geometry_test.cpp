@@ -1,6 +1,5 @@
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
 using nlohmann::json;
 
 namespace {
@@ -33,7 +32,7 @@ void check_square(const Scene& scene) {
         const Eigen::Vector3d a = world_corner(scene, i, 0);
         area += 0.5 * (world_corner(scene, i, 1) - a).cross(world_corner(scene, i, 2) - a).norm();
     }
-    CHECK(area == test::approx(1.0));
+    CHECK(area == approx(1.0));
     check_point(scene.bounds_min, 0, 0, 0);
     check_point(scene.bounds_max, 1, 0, 1);
 }
@@ -91,7 +90,7 @@ TEST_CASE("glTF: quantized positions") {
     gltf.mesh({{{"attributes", {{"POSITION", accessor}}}, {"material", gltf.material("sand")}}});
     gltf.node({{"mesh", 0}});
     gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
-    CHECK(load(gltf).bounds_max.x() == test::approx(32767.0));
+    CHECK(load(gltf).bounds_max.x() == approx(32767.0));
     gltf.document["accessors"][0]["normalized"] = true;
     const Scene scene = load(gltf);
     check_point(world_corner(scene, 0, 1), 1, 0, 0);

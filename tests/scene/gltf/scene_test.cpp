@@ -1,7 +1,6 @@
 #include "input/scene/copies.h"
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
 using nlohmann::json;
 namespace fs = std::filesystem;
 

@@ -6,9 +6,6 @@
 #include "output/format/geotiff.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using sonarsim::test::TemporaryFolder;
-
 namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
@@ -63,10 +60,10 @@ TEST_CASE("the first row of a heightmap is the north, its first column the west"
     CHECK(has_vertex(surface, {101, 47, 4}));
     CHECK(has_vertex(surface, {105, 47, 6}));
     // Counter-clockwise from above: the whole map from 101 to 105 and from 47 to 49.
-    CHECK(upward_area(surface) == test::approx(8.0));
+    CHECK(upward_area(surface) == approx(8.0));
     // Triangles share the edge from the north-west to the south-east.
     const Bottom bottom(surface);
-    CHECK(*bottom.highest({102, 48}) == test::approx(0.5 * (1 + 5)));
+    CHECK(*bottom.highest({102, 48}) == approx(0.5 * (1 + 5)));
     // The mission's pixel size replaces the place in the file.
     const MapFile pixels({1, 2, 3, 4, 5, 6}, 3, {.west_m = 100, .north_m = 50}, {.pixel_m = 2.0});
     CHECK(has_vertex(pixels.surface(), {1, 3, 1}));
@@ -155,7 +152,7 @@ TEST_CASE("cell_m makes a heightmap's cells shorter and keeps its heights and ho
     // triangle.
     CHECK(surface.triangles.size() == 2 * (15 * 15 - 9) + 1);
     CHECK(has_vertex(surface, {5, 7, 3}));
-    CHECK(upward_area(surface) == test::approx(96.0 + 2.0 / 9.0).epsilon(1e-6));
+    CHECK(upward_area(surface) == approx(96.0 + 2.0 / 9.0).epsilon(1e-6));
     CHECK_THROWS_WITH_AS((MapFile(heights, 6, place, {.cell_m = 1e-3}).surface()),
                          doctest::Contains("make cell_m longer"), InputError);
 }

@@ -3,8 +3,6 @@
 #include "output/format/geotiff.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 constexpr int columns = 40;
@@ -24,7 +22,7 @@ bool has_gdal() {
 
 /// map.tif in a folder, with its north-western corner at (500000, 5600300).
 struct NumberedMap {
-    test::TemporaryFolder folder;
+    TemporaryFolder folder;
     std::filesystem::path path = folder.path / "map.tif";
 
     explicit NumberedMap(double cell_m = 10, const std::vector<float>& values = numbers(),
@@ -119,7 +117,7 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     if (!has_gdal()) return;
     const NumberedMap map(0.25);
     const auto feet = read_image(map.translated("-a_srs EPSG:2263"));
-    CHECK(feet.grid->column_m == test::approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
+    CHECK(feet.grid->column_m == approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
     const auto degrees = read_image(map.translated("-a_srs EPSG:4326"));
     CHECK(degrees.in_degrees);
     CHECK(degrees.grid->column_m == 0.25);

@@ -3,9 +3,6 @@
 #include "input/scene/images/read_image.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-using sonarsim::test::TemporaryFolder;
-
 namespace {
 
 /// A TIFF of one strip, with the numbers in the file as they are here.

@@ -1,9 +1,6 @@
 #include "support/draws.h"
 #include "support/maps.h"
 
-using namespace sonarsim;
-using namespace sonarsim::test;
-
 TEST_CASE("a footprint has its materials by area, and each its mean factor") {
     // Texels of 0.5 m; footprints of 0.5 to 3 m, of any direction, against a lattice of points.
     Draws draws(2);

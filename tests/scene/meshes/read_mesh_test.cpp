@@ -1,7 +1,5 @@
 #include "scene/gltf/builder.h"
 
-using namespace sonarsim;
-
 namespace {
 
 template <class T>
@@ -87,7 +85,7 @@ Scene scene_of(const std::string& name, const std::string& bytes) {
 std::string error_of_mesh(const std::string& name, const std::string& bytes) {
     const TemporaryFolder folder;
     const std::string path = written(folder, name, bytes).string();
-    const std::string message = test::fault_of([&] { load_scene_geometry(path); });
+    const std::string message = fault_of([&] { load_scene_geometry(path); });
     if (message.empty()) return "";
     REQUIRE(message.starts_with(path + ":"));
     return message.substr(path.size() - name.size());

@@ -4,13 +4,10 @@
 #include "support/seabed.h"
 #include "support/statistics.h"
 
-using namespace sonarsim;
-using sonarsim::test::ks_p_value;
-
 namespace {
 
-test::SeabedRule bare_rule(double half_m) {
-    test::SeabedRule rule;
+SeabedRule bare_rule(double half_m) {
+    SeabedRule rule;
     rule.cell_m = 0.25;
     rule.seed = 21;
     rule.window = {-half_m, -half_m, half_m, half_m};
@@ -26,7 +23,7 @@ double area_of_heights(const Seabed& bed) {
 }  // namespace
 
 TEST_CASE("rocks are a Poisson process with sizes of a power law") {
-    test::SeabedRule rule = bare_rule(30.0);
+    SeabedRule rule = bare_rule(30.0);
     rule.rocks = BedRockConfig{0.7, {0.1, 2.0}, 2.4, {0.1, 0.5}};
     const Seabed bed = make_seabed(rule);
     const double expected = 0.7 * area_of_heights(bed);
@@ -65,7 +62,7 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
 }
 
 TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of their diameter") {
-    test::SeabedRule rule = bare_rule(20.0);
+    SeabedRule rule = bare_rule(20.0);
     rule.z_m = -5.0;
     rule.ripples = BedRippleConfig{0.3, 2.0, 23.0};
     rule.rocks = BedRockConfig{0.3, {0.05, 4.0}, 1.0, {0.25, 0.25}};
@@ -81,10 +78,10 @@ TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of t
         double farthest = 0.0;
         for (const Eigen::Vector3d& vertex : placed.vertices)
             farthest = std::max(farthest, (vertex - middle).norm());
-        CHECK(farthest == test::approx(0.5 * rock.diameter_m));
+        CHECK(farthest == approx(0.5 * rock.diameter_m));
         const Eigen::AlignedBox3d box = box_of(placed);
         const double bed_z = *bottom.highest(middle.head<2>());
-        CHECK((bed_z - box.min().z()) / box.sizes().z() == test::approx(0.25).epsilon(1e-3));
+        CHECK((bed_z - box.min().z()) / box.sizes().z() == approx(0.25).epsilon(1e-3));
     }
     // Outwards, for the engines that care.
     for (const Surface& shape : bed.rock_shapes) {
@@ -96,7 +93,7 @@ TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of t
 }
 
 TEST_CASE("sediments cover their shares, in patches of all sizes") {
-    test::SeabedRule rule = bare_rule(30.0);
+    SeabedRule rule = bare_rule(30.0);
     rule.cell_m = 0.125;
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}, {"gravel", 1.0}};
     rule.patch_m = 2.0;
@@ -149,11 +146,11 @@ TEST_CASE("sediments cover their shares, in patches of all sizes") {
     // Neighbours of the correlation c lie on both sides of 0 with the probability acos(c) / pi, and
     // of a limit at 0.674 deviations exp(-0.674^2 / 2) times as often.
     const double expected = 2.0 * 0.797 * std::acos(correlation(rule.cell_m)) / pi;
-    CHECK(crossings / pairs == test::approx(expected).epsilon(0.12));
+    CHECK(crossings / pairs == approx(expected).epsilon(0.12));
 }
 
 TEST_CASE("sediments border where their field crosses a limit, and leave the bed's shape") {
-    test::SeabedRule rule = bare_rule(12.0);
+    SeabedRule rule = bare_rule(12.0);
     rule.roughness = BedRoughnessConfig{0.003, 3.25, 2.0};
     rule.patch_m = 5.0;
     const Seabed plain = make_seabed(rule);
@@ -216,7 +213,7 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
         border += along.head<2>().norm();
         if (std::abs(eighths - std::round(eighths)) > 0.1) turned += along.head<2>().norm();
     }
-    CHECK(open == test::approx(2.0 * (columns + rows)).epsilon(1e-6));
+    CHECK(open == approx(2.0 * (columns + rows)).epsilon(1e-6));
     CHECK(turned > 0.7 * border);  // 80 % if all directions are as frequent
     // The same volume below, and the crossings on the surface between heights.
     const BedGround plain_ground = ground_of(plain);
@@ -228,7 +225,7 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
             plain_volume +=
                 static_cast<double>(plain_vertices[3 * plain_corners[0][i + k] + 2]) / 6.0;
     }
-    CHECK(volume == test::approx(plain_volume).epsilon(1e-5));
+    CHECK(volume == approx(plain_volume).epsilon(1e-5));
     // The area in which the linear field is in each band, by 21 places of each triangle.
     std::array<double, 4> expected{};
     for (std::size_t i = 0; i < plain_corners[0].size(); i += 3) {
@@ -247,11 +244,11 @@ TEST_CASE("sediments border where their field crosses a limit, and leave the bed
         }
     }
     for (std::size_t m = 0; m < areas.size(); ++m)
-        CHECK(areas[m] == test::approx(expected[m]).epsilon(0.01));
+        CHECK(areas[m] == approx(expected[m]).epsilon(0.01));
 }
 
 TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes another") {
-    test::SeabedRule rule = bare_rule(12.0);
+    SeabedRule rule = bare_rule(12.0);
     rule.z_m = -20.0;
     rule.roughness = BedRoughnessConfig{0.003, 3.25, 2.0};
     rule.ripples = BedRippleConfig{0.03, 1.0, 29.0};

@@ -5,8 +5,6 @@
 #include "support/seabed.h"
 #include "support/test.h"
 
-using namespace sonarsim;
-
 namespace {
 
 /// The power of a bed's heights at one wave vector, rad/m: the periodogram with Hann's window,
@@ -39,8 +37,8 @@ double spectrum_at(const Seabed& bed, double kx, double ky) {
     return std::norm(sum) * cell * cell / (4.0 * pi * pi * weight_x * weight_y);
 }
 
-test::SeabedRule rule_of_size(double half_m, double cell_m = 0.05) {
-    test::SeabedRule rule;
+SeabedRule rule_of_size(double half_m, double cell_m = 0.05) {
+    SeabedRule rule;
     rule.cell_m = cell_m;
     rule.window = {-half_m, -half_m, half_m, half_m};
     return rule;
@@ -52,14 +50,14 @@ PhiloxKey key_of(std::uint32_t number) {
 
 }  // namespace
 
-TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(test::sanitized)) {
+TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(sanitized)) {
     // 28 beds, 6 wavelengths from 1 m to 12 cells, 8 directions each, which lie more than the
     // window's width apart: each mean of a wavelength has the deviation 1 / sqrt(28 * 8) = 6.7 %.
     constexpr int beds = 28;
     constexpr int wavelengths = 6;
     constexpr int directions = 8;
     using Values = Eigen::Array<double, wavelengths, 1>;
-    test::SeabedRule rule = rule_of_size(4.0, 0.025);
+    SeabedRule rule = rule_of_size(4.0, 0.025);
     rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
     Values ratios = Values::Zero();
     Values logs;
@@ -93,7 +91,7 @@ TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(
 
 TEST_CASE("neighbouring facets of a rough bed have similar slopes") {
     // The roughest field correlates by 0.59, the longer ones by more; white heights by -0.5.
-    test::SeabedRule rule = rule_of_size(5.0);
+    SeabedRule rule = rule_of_size(5.0);
     rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
     const Seabed bed = make_seabed(rule);
     double products = 0.0;
@@ -109,9 +107,9 @@ TEST_CASE("neighbouring facets of a rough bed have similar slopes") {
     CHECK(products / squares > 0.59);
 }
 
-TEST_CASE("ripples have their length, direction and height" * doctest::skip(test::sanitized)) {
+TEST_CASE("ripples have their length, direction and height" * doctest::skip(sanitized)) {
     for (const double angle : {0.4, 2.0}) {
-        test::SeabedRule rule = rule_of_size(6.0);
+        SeabedRule rule = rule_of_size(6.0);
         rule.seed = 3;
         rule.ripples = BedRippleConfig{0.03, 0.25, degrees(angle)};
         const Seabed bed = make_seabed(rule);
@@ -141,7 +139,7 @@ TEST_CASE("ripples have their length, direction and height" * doctest::skip(test
 }
 
 TEST_CASE("a bed of a size ends there") {
-    test::SeabedRule rule = rule_of_size(100.0, 0.5);
+    SeabedRule rule = rule_of_size(100.0, 0.5);
     rule.size_m = {8.0, 5.0};
     rule.z_m = -7.0;
     PlacedFile placed;

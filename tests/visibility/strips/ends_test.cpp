@@ -1,11 +1,6 @@
 #include "support/draws.h"
 #include "visibility/strips/fixtures.h"
 
-using namespace sonarsim;
-using test::area_of;
-using test::fan_view;
-using test::visible;
-
 namespace {
 
 /// A closed prism of six sides and a radius of 2 cm, with fans at both ends.
@@ -21,9 +16,9 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
     for (int k = 0; k < 6; ++k) {
         const Eigen::Vector3f p = rim(k);
         const Eigen::Vector3f q = rim(k + 1);
-        shapes::add_quad(scene, a + p, a + q, b + q, b + p, material);
-        shapes::add_quad(scene, a, a, a + p, a + q, material);
-        shapes::add_quad(scene, b, b, b + p, b + q, material);
+        add_quad(scene, a + p, a + q, b + q, b + p, material);
+        add_quad(scene, a, a, a + p, a + q, material);
+        add_quad(scene, b, b, b + p, b + q, material);
     }
 }
 
@@ -36,7 +31,7 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
     view.azimuth_rad = radians(2.0);
     view.elevation_rad = radians(60.0);
     view.beams = 1;
-    test::Draws draws(31);
+    Draws draws(31);
     for (int k = 0; k < 40; ++k) {
         const float share = k == 0 ? 0.5F : draws.between(0.05F, 0.95F);
         CAPTURE(share);
@@ -44,18 +39,18 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
         const SinCos at = sincos(azimuth);
         const Eigen::Vector3f along(static_cast<float>(at.cos), static_cast<float>(at.sin), 0.0F);
         const Eigen::Vector3f left(-along.y(), along.x(), 0.0F);
-        Scene scene = shapes::empty_scene();
-        const std::uint32_t hard = shapes::add_material(scene, 0.9F);
-        const std::uint32_t soft = shapes::add_material(scene, 0.1F);
+        Scene scene = empty_scene();
+        const std::uint32_t hard = add_material(scene, 0.9F);
+        const std::uint32_t soft = add_material(scene, 0.1F);
         const Eigen::Vector3f near(0.0F, 0.0F, -3.0F);
         const Eigen::Vector3f far = near + 30.0F * along;
-        shapes::add_quad(scene, near, far, far + 30.0F * left, near + 30.0F * left, hard);
-        shapes::add_quad(scene, near - 30.0F * left, far - 30.0F * left, far, near, soft);
+        add_quad(scene, near, far, far + 30.0F * left, near + 30.0F * left, hard);
+        add_quad(scene, near - 30.0F * left, far - 30.0F * left, far, near, soft);
         // In every other scene a wall stands beyond the floor.
         if (k % 2 == 1) {
-            const std::uint32_t wall = shapes::add_material(scene, 0.5F);
-            shapes::add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F},
-                             {11.0F, 9.0F, 9.0F}, {11.0F, -9.0F, 9.0F}, wall);
+            const std::uint32_t wall = add_material(scene, 0.5F);
+            add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F}, {11.0F, 9.0F, 9.0F},
+                     {11.0F, -9.0F, 9.0F}, wall);
         }
         double hard_m2 = 0.0;
         double floor_m2 = 0.0;
@@ -72,7 +67,7 @@ TEST_CASE("strips: a corner that enters the view within a beam is seen") {
     // A leaf below the view whose tip, a fifth of a beam wide, reaches into it.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
-    test::Draws draws(32);
+    Draws draws(32);
     for (int k = 0; k < 40; ++k) {
         CAPTURE(k);
         const float beam = 5.0F * static_cast<float>(view.azimuth_rad) / 64.0F;  // at 5 m
@@ -82,8 +77,8 @@ TEST_CASE("strips: a corner that enters the view within a beam is seen") {
         const Eigen::Vector3f tip(5.0F, y, low + height);
         const Eigen::Vector3f a(5.0F, y - 5.0F * beam, low - 49.0F * height);
         const Eigen::Vector3f b(5.0F, y + 5.0F * beam, low - 49.0F * height);
-        Scene scene = shapes::empty_scene();
-        shapes::add_quad(scene, tip, a, b, b, shapes::add_material(scene, 0.5F));
+        Scene scene = empty_scene();
+        add_quad(scene, tip, a, b, b, add_material(scene, 0.5F));
         CHECK(area_of(visible(scene, view, Pose{})) > 0.0);
     }
 }
@@ -93,7 +88,7 @@ TEST_CASE("strips: a corner of surface and the border of the view is seen") {
     // within a beam.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
-    test::Draws draws(33);
+    Draws draws(33);
     for (int k = 0; k < 40; ++k) {
         CAPTURE(k);
         const float left = draws.between(-1.5F, 1.5F);
@@ -104,9 +99,9 @@ TEST_CASE("strips: a corner of surface and the border of the view is seen") {
         const auto on_edge = [&](float z) -> Eigen::Vector3f {
             return on_plane(left - lean * z, z);
         };
-        Scene scene = shapes::empty_scene();
-        shapes::add_quad(scene, on_edge(-0.3F), on_edge(0.3F), on_plane(left - 2.0F, 0.3F),
-                         on_plane(left - 2.0F, -0.3F), shapes::add_material(scene, 0.5F));
+        Scene scene = empty_scene();
+        add_quad(scene, on_edge(-0.3F), on_edge(0.3F), on_plane(left - 2.0F, 0.3F),
+                 on_plane(left - 2.0F, -0.3F), add_material(scene, 0.5F));
         float low = 0.0F;
         float high = 0.3F;
         for (int step = 0; step < 40; ++step) {
@@ -130,11 +125,11 @@ TEST_CASE("strips: a cable ends in range where its corners do") {
     view.elevation_rad = radians(2.0);
     view.range_bins = 1024;
     const auto bin = static_cast<float>(view.bin_m());
-    test::Draws draws(33);
+    Draws draws(33);
     for (int k = 0; k < 40; ++k) {
         CAPTURE(k);
-        Scene scene = shapes::empty_scene();
-        const std::uint32_t material = shapes::add_material(scene, 0.5F);
+        Scene scene = empty_scene();
+        const std::uint32_t material = add_material(scene, 0.5F);
         const float y = draws.between(-2.0F, 2.0F);
         const Eigen::Vector3f node(7.0F, y, draws.between(-0.3F, 0.0F));
         const float length = draws.between(0.5F, 2.0F);

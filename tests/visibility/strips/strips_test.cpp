@@ -5,12 +5,6 @@
 #include "support/lattices.h"
 #include "visibility/strips/fixtures.h"
 
-using namespace sonarsim;
-using test::area_of;
-using test::fan_view;
-using test::filled_sr;
-using test::visible;
-
 namespace {
 
 View sides_of_strips() {
@@ -32,9 +26,9 @@ View cone_of_strips() {
 
 /// The wall x = `x`, 40 m across, of n x n x 2 triangles.
 Scene wall_ahead(float x, int n = 1) {
-    Scene scene = test::empty_scene();
-    test::add_quad(scene, {x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20},
-                   test::add_material(scene, 0.5F), n);
+    Scene scene = empty_scene();
+    add_quad(scene, {x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20},
+             add_material(scene, 0.5F), n);
     return scene;
 }
 
@@ -53,11 +47,11 @@ TEST_CASE("strips: a wall seen face on has its area, whole or in many triangles"
     for (const int n : {1, 7, 200}) {
         CAPTURE(n);
         const Samples samples = visible(wall_ahead(5.0F, n), view);
-        CHECK(area_of(samples) / wall_area(5.0, view) == test::approx(1.0).epsilon(2e-3));
+        CHECK(area_of(samples) / wall_area(5.0, view) == approx(1.0).epsilon(2e-3));
         for (const Sample& sample : samples.items) {
-            CHECK(sample.position.x() == test::approx(5.0).epsilon(1e-3));
-            CHECK(sample.height_m == test::approx(5.0).epsilon(1e-5));
-            CHECK(sample.normal.x() == test::approx(-1.0).epsilon(1e-5));
+            CHECK(sample.position.x() == approx(5.0).epsilon(1e-3));
+            CHECK(sample.height_m == approx(5.0).epsilon(1e-5));
+            CHECK(sample.normal.x() == approx(-1.0).epsilon(1e-5));
         }
     }
 }
@@ -83,7 +77,7 @@ TEST_CASE("strips: two large triangles fill the range") {
             v = (turn * (v.cast<double>() * view.range_max_m + d * Eigen::Vector3d::UnitX()))
                     .cast<float>();
         const double area = std::numbers::pi * (R * R - d * d);
-        CHECK(area_of(visible(scene, view)) == test::approx(area).epsilon(5e-3));
+        CHECK(area_of(visible(scene, view)) == approx(area).epsilon(5e-3));
     }
 }
 
@@ -99,23 +93,23 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
         for (const int n : {1, 40}) {
             if (n > 1 && opening_deg < 1.0) continue;
             CHECK(area_of(visible(wall_ahead(4.0F, n), view)) ==
-                  test::approx(pi * radius * radius).epsilon(error));
+                  approx(pi * radius * radius).epsilon(error));
         }
     }
 }
 
 TEST_CASE("strips: a sphere fills the solid angle that it should") {
     // 2 pi (1 - cos) of the cone that touches it: sin = R / D.
-    Scene scene = test::empty_scene();
-    test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
+    Scene scene = empty_scene();
+    add_sphere(scene, {5, 0, 0}, 0.5F, add_material(scene, 0.5F), 256);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
     for (const View& view : {fan_view(), cone_of_strips()})
-        CHECK(filled_sr(visible(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
+        CHECK(filled_sr(visible(scene, view)) / expected == approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
-    Scene scene = test::empty_scene();
-    test::add_sphere(scene, {0, 0, 0}, 3.0F, test::add_material(scene, 0.5F), 128);
+    Scene scene = empty_scene();
+    add_sphere(scene, {0, 0, 0}, 3.0F, add_material(scene, 0.5F), 128);
     View view = fan_view();
     view.azimuth_rad = 2.0 * pi;
     for (const double elevation_deg : {180.0, 120.0, 60.0}) {
@@ -126,12 +120,11 @@ TEST_CASE("strips: full turns and steep views see all of a sphere around the son
             CAPTURE(beams);
             view.beams = beams;
             const Samples samples = visible(scene, view);
-            CHECK(area_of(samples) == test::approx(expected).epsilon(0.01));
+            CHECK(area_of(samples) == approx(expected).epsilon(0.01));
             // Columns meet at the poles of a view of 180 degrees.
             const double tolerance = elevation_deg > 120.0 ? 0.15 : 0.02;
             for (int j = 0; j < beams; ++j)
-                CHECK(area_of(samples.beam(j)) ==
-                      test::approx(expected / beams).epsilon(tolerance));
+                CHECK(area_of(samples.beam(j)) == approx(expected / beams).epsilon(tolerance));
         }
     }
 }
@@ -140,9 +133,9 @@ TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
     // The ground 4 m below: azimuth is from nadir outward, so y = 4 tan(azimuth), and a strip of
     // the elevation e has the width 2 r tan(e / 2). Half of the integral of r dy is that of one
     // side.
-    Scene scene = test::empty_scene();
-    test::add_quad(scene, {4, -30, -30}, {4, 30, -30}, {4, 30, 30}, {4, -30, 30},
-                   test::add_material(scene, 0.5F), 9);
+    Scene scene = empty_scene();
+    add_quad(scene, {4, -30, -30}, {4, 30, -30}, {4, 30, 30}, {4, -30, 30},
+             add_material(scene, 0.5F), 9);
     const View view = sides_of_strips();
     const double y = 4.0 * std::tan(radians(60.0));
     const double expected = 2.0 * std::tan(0.5 * view.elevation_rad) *
@@ -152,20 +145,20 @@ TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
         const double area = area_of(samples.beam(side));
         for (const Sample& sample : samples.beam(side))
             CHECK((sample.position.y() > 0.0F) == (side == 1));
-        CHECK(area == test::approx(expected).epsilon(0.02));
+        CHECK(area == approx(expected).epsilon(0.02));
     }
 }
 
 TEST_CASE("strips: planes that cross are each seen where they are nearest, equal planes once") {
     // Planes through (5, y, 0) that lean by -1, 0 and 1: the outer two are nearer above and below.
-    Scene scene = test::empty_scene();
+    Scene scene = empty_scene();
     std::array<std::uint32_t, 3> material;
     for (int k = 0; k < 3; ++k) {
         const auto lean = static_cast<float>(k - 1);
-        material[k] = test::add_material(scene, 0.3F + 0.1F * static_cast<float>(k));
+        material[k] = add_material(scene, 0.3F + 0.1F * static_cast<float>(k));
         for (int twice = 0; twice < 2; ++twice)
-            test::add_quad(scene, {5 - 4 * lean, -9, -4}, {5 - 4 * lean, 9, -4},
-                           {5 + 4 * lean, 9, 4}, {5 + 4 * lean, -9, 4}, material[k]);
+            add_quad(scene, {5 - 4 * lean, -9, -4}, {5 - 4 * lean, 9, -4}, {5 + 4 * lean, 9, 4},
+                     {5 + 4 * lean, -9, 4}, material[k]);
     }
     std::array<double, 3> area{};
     double wrong = 0.0;
@@ -180,19 +173,19 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     CHECK(area[1] < 1e-4);
     CHECK(area[0] > 1.0);
     CHECK(wrong < 1e-3 * area[0]);
-    CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-3));
+    CHECK(area[2] / area[0] == approx(1.0).epsilon(1e-3));
     const double solid = 2.0 * fan_view().azimuth_rad * sincos(0.5 * fan_view().elevation_rad).sin;
-    CHECK(filled_sr(samples) == test::approx(solid).epsilon(2e-3));
+    CHECK(filled_sr(samples) == approx(solid).epsilon(2e-3));
 }
 
 TEST_CASE("strips: where faces coincide the first of the file is seen, as by rays") {
     // A plate in a floor: the plate before the floor is seen, and behind it hidden.
     for (const bool plate_first : {true, false}) {
-        Scene scene = test::empty_scene();
-        const std::uint32_t sand = test::add_material(scene, 0.2F);
-        const std::uint32_t steel = test::add_material(scene, 0.9F);
+        Scene scene = empty_scene();
+        const std::uint32_t sand = add_material(scene, 0.2F);
+        const std::uint32_t steel = add_material(scene, 0.9F);
         const auto add = [&](float x0, float x1, float y, std::uint32_t material) {
-            test::add_quad(scene, {x0, -y, -2}, {x1, -y, -2}, {x1, y, -2}, {x0, y, -2}, material);
+            add_quad(scene, {x0, -y, -2}, {x1, -y, -2}, {x1, y, -2}, {x0, y, -2}, material);
         };
         if (plate_first) add(5, 7, 1, steel);
         add(1, 40, 30, sand);
@@ -206,8 +199,8 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
         const Pose pose{rotation_from_rpy(0.0, radians(15.0), 0.0), {0, 0, 0}};
         const double by_strips = steel_m2(visible(scene, fan_view(), pose));
         const double by_rays = steel_m2(make_rays_engine(scene)->visible_surface(fan_view(), pose));
-        CHECK(by_strips == test::approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
-        CHECK(by_rays == test::approx(plate_first ? 4.0 : 0.0).epsilon(0.03));
+        CHECK(by_strips == approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
+        CHECK(by_rays == approx(plate_first ? 4.0 : 0.0).epsilon(0.03));
     }
 }
 
@@ -222,13 +215,13 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
     narrow.beams = 128;
     narrow.relative_l1 = 0.003;
     for (int k = 0; k < 8; ++k) {
-        Scene scene = test::empty_scene();
-        const std::uint32_t rock = test::add_material(scene, 0.5F);
+        Scene scene = empty_scene();
+        const std::uint32_t rock = add_material(scene, 0.5F);
         for (int rod = 0; rod < 60; ++rod) {
             const float turn = 6.2F * any(random) - 3.1F;
             const float range = 3.0F + 6.0F * any(random);
-            test::add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F,
-                           0.6F, rock, 6);
+            add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F, 0.6F,
+                     rock, 6);
         }
         const Samples image = visible(scene, view);
         const Samples reference = visible(scene, narrow);
@@ -237,21 +230,21 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
             double expected = 0.0;
             for (int j = 64 * beam; j < 64 * beam + 64; ++j)
                 expected += area_of(reference.beam(j));
-            CHECK(area_of(image.beam(beam)) == test::approx(expected).epsilon(0.02));
+            CHECK(area_of(image.beam(beam)) == approx(expected).epsilon(0.02));
         }
     }
 }
 
 TEST_CASE("strips: footprints tile the ground, and their areas are the surface's") {
     // Bumpy ground that hides parts of itself.
-    Scene scene = test::empty_scene();
-    const std::uint32_t rock = test::add_material(scene, 0.5F);
+    Scene scene = empty_scene();
+    const std::uint32_t rock = add_material(scene, 0.5F);
     for (int k = 0; k < 40; ++k) {
         const auto at = static_cast<float>(k);
-        test::add_sphere(scene, {3.0F + 0.15F * at, 2.5F * std::sin(1.7F * at), -1.0F},
-                         0.1F + 0.01F * at, rock, 24);
+        add_sphere(scene, {3.0F + 0.15F * at, 2.5F * std::sin(1.7F * at), -1.0F}, 0.1F + 0.01F * at,
+                   rock, 24);
     }
-    test::add_quad(scene, {0, -9, -1}, {14, -9, -1}, {14, 9, -1}, {0, 9, -1}, rock, 80);
+    add_quad(scene, {0, -9, -1}, {14, -9, -1}, {14, 9, -1}, {0, 9, -1}, rock, 80);
     View view = fan_view();
     const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.1), {0.0, 0.0, 0.3}};
     const Samples usual = visible(scene, view, pose);
@@ -259,9 +252,9 @@ TEST_CASE("strips: footprints tile the ground, and their areas are the surface's
     for (const Sample& sample : usual.items)
         own += static_cast<double>(4.0F * sample.edge_u.cross(sample.edge_v).norm());
     const double area = area_of(usual);
-    CHECK(own / area == test::approx(1.0).epsilon(0.005));
+    CHECK(own / area == approx(1.0).epsilon(0.005));
     view.relative_l1 = 0.003;
-    CHECK(area / area_of(visible(scene, view, pose)) == test::approx(1.0).epsilon(0.01));
+    CHECK(area / area_of(visible(scene, view, pose)) == approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: drawn lattices are within their error goals") {
@@ -270,14 +263,14 @@ TEST_CASE("strips: drawn lattices are within their error goals") {
         double mean = 0.0;
         int count = 0;
         for (std::uint32_t number = 0; number < 24; number += goal < 0.02 ? 3 : 1) {
-            const test::Lattice lattice = test::draw_lattice(number);
-            Sonar sonar = test::noise_free(lattice.sonar, goal);
+            const Lattice lattice = draw_lattice(number);
+            Sonar sonar = noise_free(lattice.sonar, goal);
             sonar.T_vehicle_sensor = Pose{};
             const Reference truth =
                 cast_reference(Caster(lattice.scene), lattice.scene, sonar.settings.view, Pose{},
                                {0.25 * goal, 8.0, goal < 0.02 ? 4'000'000U : 1'000'000U});
             const double error = error_without_noise(
-                test::expected_image(sonar, lattice.scene, EngineKind::strips), truth);
+                expected_image(sonar, lattice.scene, EngineKind::strips), truth);
             CAPTURE_ALL(goal, number, lattice.shape, error);
             CHECK(error < 3.0 * goal);
             mean += error;

@@ -4,23 +4,18 @@
 #include "support/lattices.h"
 #include "visibility/strips/fixtures.h"
 
-using namespace sonarsim;
-using test::area_of;
-using test::fan_view;
-using test::visible;
-
 namespace {
 
 /// The image of a view's samples by the paper's model without noise, [range bins, beams].
 std::vector<float> mean_echoes(const Scene& scene, const View& view, Samples samples) {
     TracedPing traced;
     traced.samples = std::move(samples);
-    return test::image_of_traced(PaperModel{}, view, traced, direct_echoes_alone, {}, scene);
+    return image_of_traced(PaperModel{}, view, traced, direct_echoes_alone, {}, scene);
 }
 
 /// A many-sided tapered stay that hangs upright in the picture and ends in view. Appends the areas
 /// of the faces, m^2.
-void add_stay(Scene& scene, test::Draws& draws, std::vector<float>& areas) {
+void add_stay(Scene& scene, Draws& draws, std::vector<float>& areas) {
     const float azimuth = draws.between(-0.45F, 0.45F);
     const Eigen::Vector3f ahead(std::cos(azimuth), std::sin(azimuth), 0.0F);
     const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
@@ -46,7 +41,7 @@ void add_stay(Scene& scene, test::Draws& draws, std::vector<float>& areas) {
         const Eigen::Vector3f b = foot + around(i + 1);
         const Eigen::Vector3f c = top + taper * around(i + 1);
         const Eigen::Vector3f d = top + taper * around(i);
-        shapes::add_quad(scene, a, b, c, d, 0);
+        add_quad(scene, a, b, c, d, 0);
         areas.push_back(0.5F * (c - a).cross(d - b).norm());
     }
 }
@@ -56,7 +51,7 @@ void add_stay(Scene& scene, test::Draws& draws, std::vector<float>& areas) {
 /// another bin decides.
 double worst_beam(const std::vector<float>& image, const Reference& reference, const View& view) {
     const std::vector<float>& truth = reference.intensity;
-    const double whole = test::total(truth);
+    const double whole = total(truth);
     double worst = 0.0;
     for (int j = 0; j < view.beams; ++j) {
         double apart = 0.0;
@@ -77,8 +72,8 @@ double worst_beam(const std::vector<float>& image, const Reference& reference, c
 
 TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder") {
     // The mean of v . n over the visible half of a cylinder is 2 / pi = 0.64.
-    Scene scene = test::empty_scene();
-    test::add_pole(scene, {5.0F, 0.0F, -2.0F}, 0.002F, 4.0F, test::add_material(scene, 0.5F), 8);
+    Scene scene = empty_scene();
+    add_pole(scene, {5.0F, 0.0F, -2.0F}, 0.002F, 4.0F, add_material(scene, 0.5F), 8);
     const SceneClusters clusters(scene);
     for (int k = 0; k < 60; ++k) {
         CAPTURE(k);
@@ -100,8 +95,8 @@ TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder
 }
 
 TEST_CASE("strips: a ball of 2 cm is seen in every ping") {
-    Scene scene = test::empty_scene();
-    test::add_sphere(scene, {8, 0, 0}, 0.01F, test::add_material(scene, 0.5F), 16);
+    Scene scene = empty_scene();
+    add_sphere(scene, {8, 0, 0}, 0.01F, add_material(scene, 0.5F), 16);
     const SceneClusters clusters(scene);
     for (int k = 0; k < 60; ++k) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k))};
@@ -117,12 +112,11 @@ TEST_CASE("strips: a pole at the very border of the view ends its last beam once
     view.azimuth_rad = radians(90.0);  // u = y / x runs from -1 to 1
     view.beams = 4;
     for (int k = 0; k < 40; ++k) {
-        Scene scene = shapes::empty_scene();
+        Scene scene = empty_scene();
         constexpr float ulp = 4.77e-7F;  // float step between 4 and 8
         const float left = 5.0F - ulp * static_cast<float>(k / 4 + k % 4 + 1);
         const float right = 5.0F - ulp * static_cast<float>(k / 4);
-        shapes::add_box(scene, {5.0F, left, -0.5F}, {5.0F + ulp, right, 0.5F},
-                        shapes::add_material(scene, 1.0F));
+        add_box(scene, {5.0F, left, -0.5F}, {5.0F + ulp, right, 0.5F}, add_material(scene, 1.0F));
         const Samples samples = visible(scene, view, Pose{});
         REQUIRE(samples.beam_begin.size() == 5);
         CHECK(std::ranges::is_sorted(samples.beam_begin));
@@ -145,13 +139,13 @@ TEST_CASE("strips: a grazing tread with an oblique near edge has its area in the
         const float far = 0.2F + static_cast<float>(last_bin) * bin + d;
         const float slope = 1.0F + 2.0F * any(random);
         const float h = 0.01F + 0.02F * any(random);
-        Scene scene = test::empty_scene();
-        const std::uint32_t rock = test::add_material(scene, 0.5F);
+        Scene scene = empty_scene();
+        const std::uint32_t rock = add_material(scene, 0.5F);
         const float low = -0.01F;
-        test::add_quad(scene, {far - 1.5F - 0.5F * slope, -0.5F, low}, {far, -0.5F, low},
-                       {far, 0.5F, low}, {far - 1.5F + 0.5F * slope, 0.5F, low}, rock);
-        test::add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
-                       {far, -0.5F, low + h}, rock);
+        add_quad(scene, {far - 1.5F - 0.5F * slope, -0.5F, low}, {far, -0.5F, low},
+                 {far, 0.5F, low}, {far - 1.5F + 0.5F * slope, 0.5F, low}, rock);
+        add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
+                 {far, -0.5F, low + h}, rock);
         const std::vector<float> image = mean_echoes(scene, view, visible(scene, view, Pose{}));
         for (const int beam : {31, 32}) {
             const double intensity = image[last_bin * view.beams + beam];
@@ -164,12 +158,11 @@ TEST_CASE("strips: a grazing tread with an oblique near edge has its area in the
 TEST_CASE("strips: a face that is seen nearly edge-on keeps its area") {
     // Faces of 2 cm by 2 m, 10 m away, at 0.006 and 0.02 degrees: smaller than cracks by rounding.
     for (const float depth_m : {0.001F, 0.004F}) {
-        Scene scene = test::empty_scene();
-        test::add_quad(scene, {10.0F, -1.0F, -depth_m}, {10.02F, -1.0F, -depth_m},
-                       {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m},
-                       test::add_material(scene, 1.0F));
+        Scene scene = empty_scene();
+        add_quad(scene, {10.0F, -1.0F, -depth_m}, {10.02F, -1.0F, -depth_m},
+                 {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m}, add_material(scene, 1.0F));
         CAPTURE(depth_m);
-        CHECK(area_of(visible(scene, fan_view(), Pose{})) == test::approx(0.04).epsilon(0.02));
+        CHECK(area_of(visible(scene, fan_view(), Pose{})) == approx(0.04).epsilon(0.02));
     }
 }
 
@@ -177,9 +170,9 @@ TEST_CASE("strips: a face that is seen nearly edge-on keeps its area") {
 TEST_CASE("strips: no face of a stay stands for many times its area") {
     View view{radians(60.0), radians(30.0), 1.0, 80.0, 256, 128, 0.01};
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-        Scene scene = shapes::empty_scene();
-        shapes::add_material(scene, 0.8F);
-        test::Draws draws(seed);
+        Scene scene = empty_scene();
+        add_material(scene, 0.8F);
+        Draws draws(seed);
         std::vector<float> areas;
         for (int k = 0; k < 200; ++k)
             add_stay(scene, draws, areas);
@@ -202,7 +195,7 @@ TEST_CASE("strips: no beam of a drawn lattice is far from brute force at any goa
     // Imaging sonars at trusses, ladders and a net. Behind a post of scene 76 the background shows
     // in 5 and 10 % of two beams, less than half a column, and a bin has the mean of what shows.
     for (const std::uint32_t number : {2U, 6U, 42U, 46U, 64U, 76U}) {
-        const test::Lattice lattice = test::draw_lattice(number);
+        const Lattice lattice = draw_lattice(number);
         const Caster caster(lattice.scene);
         View view = make_sonar(lattice.sonar, {}).settings.view;
         const Reference truth =
