@@ -2,9 +2,10 @@
 
 #include <tuple>
 
-#include "job/small_job.h"
 #include "output/dataset/metadata.h"
 #include "run/job/dataset_folders.h"
+#include "support/small_mission.h"
+
 
 using Json = nlohmann::ordered_json;
 

@@ -1,4 +1,4 @@
-#include "job/small_job.h"
+#include "support/small_mission.h"
 
 namespace fs = std::filesystem;
 
@@ -7,6 +7,10 @@ namespace {
 RenderSummary run_with(const Mission& mission, const JobCallback& progress,
                        const std::atomic<bool>& stop = false) {
     return run_job(mission, small_assembly(mission, poses), {.threads = 1}, progress, stop);
+}
+
+bool is_complete(const fs::path& folder) {
+    return nlohmann::json::parse(read_file(folder / "dataset.json", 1 << 20)).at("complete");
 }
 
 }  // namespace
@@ -26,11 +30,8 @@ TEST_CASE("job: a ping that saw nothing is there like any other") {
     CHECK(again.counts.echoes == 0);
     CHECK(again.pings == 0);
     CHECK(again.complete);
-    const Mission shards = [&] {
-        Mission other = mission;
-        other.output.folder = temporary.path / "shards";
-        return other;
-    }();
+    Mission shards = mission;
+    shards.output.folder = temporary.path / "shards";
     CHECK_FALSE(run(shards, {.shard = 0, .shards = 2}).complete);
     CHECK(run(shards, {.shard = 1, .shards = 2}).complete);
 }

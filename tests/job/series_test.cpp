@@ -1,12 +1,12 @@
 #include <OpenImageIO/imageio.h>
 
-#include "job/small_job.h"
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/npy_data.h"
+#include "support/small_mission.h"
 
 namespace sonarsim {
 Writer make_strip_writer(const WriterContext& context);

@@ -38,8 +38,18 @@ inline const CalibratedModel& calibrated_model_of(const Sonar& sonar) {
     return dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
 }
 
-inline double total(std::span<const float> image) {
-    return std::accumulate(image.begin(), image.end(), 0.0);
+/// A floor of a bed alone, at the height z.
+inline Scene bed_scene(const Material& bed, float half_size, double z, int n = 4) {
+    Scene scene = empty_scene();
+    scene.materials = {bed};
+    add_floor(scene, half_size, static_cast<float>(z), 0, n);
+    return scene;
+}
+
+/// The rows and columns of an image [range bins, beams].
+inline Eigen::Map<const Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>
+image_array(const std::vector<float>& image, int beams) {
+    return {image.data(), std::ssize(image) / beams, beams};
 }
 
 /// The sines of beams that divide a fan into equal angles.
@@ -87,8 +97,8 @@ inline std::vector<float> image_of_samples(const CalibratedModel& model, const V
 inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineKind type,
                                          const Pose& pose = {},
                                          const Terms& terms = direct_echoes_alone) {
-    const auto engine = make_engine(scene, {.type = type, .octree = {}});
-    return render_ping(sonar, scene, *engine, pose, {.seed = 1, .ping = 0}, terms).intensity;
+    return render_ping(sonar, scene, *engine_of(scene, type), pose, {.seed = 1, .ping = 0}, terms)
+        .intensity;
 }
 
 }  // namespace sonarsim::test

@@ -15,9 +15,18 @@ inline constexpr LabelRequest everything{.objects = true,
                                          .elevation = true,
                                          .shadow = true};
 
+/// The objects of a scene, of which the first is a floor and background.
+inline SceneObjects objects_on_floor(const Scene& scene) {
+    SceneObjects objects = group_objects(scene, {});
+    objects.background.assign(objects.classes.size(), 0);
+    objects.background[0] = 1;
+    return objects;
+}
+
 /// A scene, its labels and the image without noise.
 struct Labelled {
     SceneObjects objects;
+    TracedPing traced;
     PingLabels labels;
     Ping clean;
 
@@ -26,13 +35,16 @@ struct Labelled {
     }
 };
 
-inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineKind type) {
-    const auto engine = make_engine(scene, {.type = type, .octree = {}});
-    const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-    Labelled out;
-    out.objects = group_objects(scene, {});
-    out.labels = label_ping(traced, sonar.settings, scene, out.objects, *engine, everything);
-    out.clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
+inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, EngineKind type,
+                      const LabelRequest& request = everything,
+                      const std::optional<SceneObjects>& objects = {}) {
+    const auto engine = engine_of(scene, type);
+    Labelled out{objects ? *objects : group_objects(scene, {}),
+                 trace(sonar, scene, *engine, pose, 0),
+                 {},
+                 {}};
+    out.labels = label_ping(out.traced, sonar.settings, scene, out.objects, *engine, request);
+    out.clean = form_image(out.traced, sonar.settings, scene, {}, without_random_terms);
     return out;
 }
 

@@ -251,8 +251,8 @@ Lattice draw_lattice(std::uint32_t number) {
     Draws draws(number);
     Lattice out;
     out.scene = empty_scene();
-    const LatticeShape& shape = known_shapes[static_cast<std::size_t>(
-        draws.whole(0, static_cast<int>(known_shapes.size()) - 1))];
+    const LatticeShape& shape =
+        known_shapes[draws.whole(0, static_cast<int>(known_shapes.size()) - 1)];
     out.shape = shape.name;
     LatticeBuilder builder(draws, out.scene);
     shape.build(builder);

@@ -1,9 +1,10 @@
 #include "support/shapes.h"
 
+#include "core/elementary.h"
 #include "simulate/visibility/view.h"
 #include "support/test.h"
 
-namespace sonarsim::shapes {
+namespace sonarsim::test {
 
 namespace {
 
@@ -50,9 +51,26 @@ void add_quad(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
     }
 }
 
+void add_rectangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& c,
+                   std::uint32_t material, int n) {
+    // The axes of its sides.
+    const int u = a.x() == c.x() ? 1 : 0;
+    const int v = a.z() == c.z() ? 1 : 2;
+    Eigen::Vector3f b = a;
+    b[u] = c[u];
+    Eigen::Vector3f d = a;
+    d[v] = c[v];
+    add_quad(scene, a, b, c, d, material, n);
+}
+
 void add_floor(Scene& scene, float half_size, float z, std::uint32_t material, int n) {
-    const float s = half_size;
-    add_quad(scene, {-s, -s, z}, {s, -s, z}, {s, s, z}, {-s, s, z}, material, n);
+    add_rectangle(scene, {-half_size, -half_size, z}, {half_size, half_size, z}, material, n);
+}
+
+Scene rectangle_scene(const Eigen::Vector3f& a, const Eigen::Vector3f& c, float reflection, int n) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, a, c, add_material(scene, reflection), n);
+    return scene;
 }
 
 Scene floor_scene(float half_size, float z, float reflection, int n) {
@@ -64,17 +82,11 @@ Scene floor_scene(float half_size, float z, float reflection, int n) {
 void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& max,
              std::uint32_t material) {
     for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3;
-        const int v = (axis + 2) % 3;
         for (const Eigen::Vector3f& side : {min, max}) {
             Eigen::Vector3f a = min;
             Eigen::Vector3f c = max;
             a[axis] = c[axis] = side[axis];
-            Eigen::Vector3f b = a;
-            b[u] = c[u];
-            Eigen::Vector3f d = a;
-            d[v] = c[v];
-            add_quad(scene, a, b, c, d, material);
+            add_rectangle(scene, a, c, material);
         }
     }
 }
@@ -110,11 +122,11 @@ Scene tank() {
     const std::uint32_t concrete = add_material(scene, 0.5F);
     const std::uint32_t steel = add_material(scene, 0.88F);
     const std::uint32_t wood = add_material(scene, 0.15F);
-    add_quad(scene, {-4, -3, 0}, {4, -3, 0}, {4, 3, 0}, {-4, 3, 0}, concrete);
-    add_quad(scene, {-4, -3, 0}, {4, -3, 0}, {4, -3, 3}, {-4, -3, 3}, concrete);
-    add_quad(scene, {-4, 3, 0}, {4, 3, 0}, {4, 3, 3}, {-4, 3, 3}, concrete);
-    add_quad(scene, {-4, -3, 0}, {-4, 3, 0}, {-4, 3, 3}, {-4, -3, 3}, concrete);
-    add_quad(scene, {4, -3, 0}, {4, 3, 0}, {4, 3, 3}, {4, -3, 3}, concrete);
+    add_rectangle(scene, {-4, -3, 0}, {4, 3, 0}, concrete);
+    add_rectangle(scene, {-4, -3, 0}, {4, -3, 3}, concrete);
+    add_rectangle(scene, {-4, 3, 0}, {4, 3, 3}, concrete);
+    add_rectangle(scene, {-4, -3, 0}, {-4, 3, 3}, concrete);
+    add_rectangle(scene, {4, -3, 0}, {4, 3, 3}, concrete);
     add_pole(scene, {1.0F, 0.7F, 0.0F}, 0.06F, 3.0F, steel);
     add_box(scene, {1.5F, -1.5F, 0.0F}, {2.0F, -1.0F, 0.5F}, steel);
     add_box(scene, {2.5F, 0.2F, 0.0F}, {3.1F, 0.9F, 0.7F}, wood);
@@ -122,4 +134,24 @@ Scene tank() {
     return scene;
 }
 
-}  // namespace sonarsim::shapes
+Scene rough_floor() {
+    Scene scene = empty_scene();
+    const std::uint32_t materials[] = {add_material(scene, 0.2F), add_material(scene, 0.4F)};
+    constexpr int n = 300;  // cells of 20 cm
+    const auto point = [](int i, int j) -> Eigen::Vector3f {
+        const double x = 0.2 * i - 30.0;
+        const double y = 0.2 * j - 30.0;
+        const double z = 0.3 * sincos(0.5 * x).sin + 0.2 * sincos(0.7 * y + 0.3 * x).cos +
+                         0.04 * sincos(4.0 * x + y).sin + 0.02 * sincos(9.0 * y - 2.0 * x).sin;
+        return Eigen::Vector3d(x, y, z).cast<float>();
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            add_quad(scene, point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1),
+                     materials[(i / 40 + j / 40) % 2]);
+        }
+    }
+    return scene;
+}
+
+}  // namespace sonarsim::test

@@ -4,7 +4,7 @@
 
 #include "input/scene/scene.h"
 
-namespace sonarsim::shapes {
+namespace sonarsim::test {
 
 // Test scenes with simple geometry, built in memory. Materials are named by their reflection
 // coefficient.
@@ -25,10 +25,16 @@ void add_quad(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
               const Eigen::Vector3f& c, const Eigen::Vector3f& d, std::uint32_t material,
               int n = 1);
 
+/// The rectangle between two opposite corners that have one coordinate in common.
+void add_rectangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& c,
+                   std::uint32_t material, int n = 1);
+
 /// The horizontal square |x|, |y| <= half_size at height z.
 void add_floor(Scene& scene, float half_size, float z, std::uint32_t material, int n = 1);
 
-/// A scene of such a floor alone, of one material.
+/// Scenes of such a rectangle or floor alone, of one material.
+Scene rectangle_scene(const Eigen::Vector3f& a, const Eigen::Vector3f& c, float reflection,
+                      int n = 1);
 Scene floor_scene(float half_size, float z, float reflection, int n = 1);
 
 /// An axis-aligned box.
@@ -46,4 +52,8 @@ void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float hei
 /// A tank of 8 x 6 x 3 m, floor at z = 0, with a pole, a box, a crate and a sphere in it.
 Scene tank();
 
-}  // namespace sonarsim::shapes
+/// A sea floor of waves about z = 0, |x|, |y| <= 30 m: swell of half a metre, ripples of 4 cm, two
+/// materials. For comparisons with a reference.
+Scene rough_floor();
+
+}  // namespace sonarsim::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "input/mission/mission.h"
+#include "run/job/run_job.h"
 #include "simulate/assembly/assemble.h"
 #include "support/test.h"
 
@@ -18,5 +19,11 @@ Assembly small_assembly(const Mission& mission, int poses);
 
 /// The bytes of every file below a folder, by its path relative to the folder.
 std::map<std::string, std::string> contents(const std::filesystem::path& folder);
+
+inline constexpr int poses = 7;  // front pings at all of them, left at 0, 3 and 6: ten pings
+
+inline RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
+    return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
+}
 
 }  // namespace sonarsim::test

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "simulate/paper/paper_model.h"
+#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"
 
 namespace sonarsim::test {
@@ -39,6 +41,16 @@ inline int bin_at(const Sonar& sonar, double range_m) {
 /// The middle of a range bin.
 inline double bin_centre(const Sonar& sonar, int i) {
     return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+}
+
+/// A ping of a sonar whose bins are all equal.
+inline Ping even_ping(const Sonar& sonar, float intensity) {
+    const View& view = sonar.settings.view;
+    Ping ping;
+    ping.range_bins = view.range_bins;
+    ping.beams = view.beams;
+    ping.intensity.assign(static_cast<std::size_t>(view.range_bins) * view.beams, intensity);
+    return ping;
 }
 
 /// Changes a copy of the sonar's model, which is the paper's.

@@ -10,9 +10,8 @@ inline double kolmogorov_tail(double distance, double n) {
     const double t = distance * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n));
     if (t < 0.2) return 1.0;
     double p = 0.0;
-    for (int k = 1; k <= 100; ++k) {
+    for (int k = 1; k <= 100; ++k)
         p += (k % 2 ? 2.0 : -2.0) * std::exp(-2.0 * k * k * t * t);
-    }
     return std::clamp(p, 0.0, 1.0);
 }
 
@@ -55,33 +54,27 @@ inline double sidak(int tests) {
 }
 
 inline double mean(const std::vector<double>& x) {
-    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+    return total(x) / static_cast<double>(x.size());
 }
 
-inline double standard_error(const std::vector<double>& x) {
-    const double m = mean(x);
-    double square = 0.0;
-    for (const double v : x)
-        square += (v - m) * (v - m);
-    const auto n = static_cast<double>(x.size());
-    return std::sqrt(square / (n - 1.0) / n);
+/// Numbers as an array of Eigen's.
+inline Eigen::Map<const Eigen::ArrayXd> array_of(const std::vector<double>& x) {
+    return {x.data(), std::ssize(x)};
 }
 
 inline double deviation(const std::vector<double>& x) {
-    return standard_error(x) * std::sqrt(static_cast<double>(x.size()));
+    return std::sqrt((array_of(x) - mean(x)).square().sum() / static_cast<double>(x.size() - 1));
+}
+
+inline double standard_error(const std::vector<double>& x) {
+    return deviation(x) / std::sqrt(static_cast<double>(x.size()));
 }
 
 /// Pearson's correlation of two lists of one length.
 inline double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-    const double ma = mean(a);
-    const double mb = mean(b);
-    double ab = 0.0, aa = 0.0, bb = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ab += (a[i] - ma) * (b[i] - mb);
-        aa += (a[i] - ma) * (a[i] - ma);
-        bb += (b[i] - mb) * (b[i] - mb);
-    }
-    return ab / std::sqrt(aa * bb);
+    const Eigen::ArrayXd off_a = array_of(a) - mean(a);
+    const Eigen::ArrayXd off_b = array_of(b) - mean(b);
+    return (off_a * off_b).sum() / std::sqrt(off_a.square().sum() * off_b.square().sum());
 }
 
 }  // namespace sonarsim::test

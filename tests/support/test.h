@@ -35,10 +35,12 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/pose.h"
 #include "core/units.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
-#include "support/scenes.h"
+#include "support/shapes.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim::test {
@@ -60,6 +62,31 @@ std::string fault_of(Work work) {
         return error.what();
     }
     return "";
+}
+
+/// The sum of numbers, in doubles.
+template <class Range>
+double total(const Range& numbers) {
+    return std::accumulate(std::begin(numbers), std::end(numbers), 0.0);
+}
+
+/// The integral of a function by the midpoint rule.
+template <class Function>
+auto integral(double from, double to, int steps, const Function& function) {
+    const double step = (to - from) / steps;
+    decltype(function(from)) sum{};
+    for (int k = 0; k < steps; ++k)
+        sum += function(from + (k + 0.5) * step);
+    return sum * step;
+}
+
+/// A pose that looks down by an angle.
+inline Pose pitched(double pitch_deg, const Eigen::Vector3d& position = {0.0, 0.0, 0.0}) {
+    return {rotation_from_rpy(0.0, radians(pitch_deg), 0.0), position};
+}
+
+inline std::unique_ptr<VisibilityEngine> engine_of(const Scene& scene, EngineKind type) {
+    return make_engine(scene, {.type = type, .octree = {}});
 }
 
 }  // namespace sonarsim::test
