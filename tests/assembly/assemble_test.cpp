@@ -106,7 +106,7 @@ TEST_CASE("assemble: look_at has an object at the distance, bearing and height t
         far_count += is_far;
         const Eigen::Vector3d to = (is_far ? far : near) - at;
         const Eigen::Vector3d visible = pose.T_world_vehicle.rotation.conjugate() * to;
-        const double bearing_deg = std::atan2(visible.y(), visible.x()) * 180.0 / 3.141592653589793;
+        const double bearing_deg = degrees(std::atan2(visible.y(), visible.x()));
         CHECK(std::abs(to.head<2>().norm() - 5.5) < 3.501);
         CHECK(std::abs(bearing_deg + 10.0) < 20.001);
         CHECK(std::abs(-to.z() - 2.0) < 1.001);

@@ -25,9 +25,7 @@ TEST_CASE("brightness: auto has two digits and grows with the gain") {
     Mission mission = small_mission("out");
     mission.output.full_scale = 0.0;
     for (SonarConfig& sensor : mission.sensors)
-        sensor.noise = {};
-    mission.sensors[0].noise.gain = 0.5;
-    mission.sensors[1].noise.gain = 0.5;
+        sensor.noise = {.gain = 0.5};
     const std::vector<double> half = scales_of(mission);
     mission.sensors[0].noise.gain = 50.0;
     const std::vector<double> more = scales_of(mission);
@@ -52,8 +50,7 @@ TEST_CASE("brightness: water does not decide what is white in a profile") {
     mission.output.full_scale = 0.0;
     SonarConfig& clear = mission.sensors[0];
     clear = calibrated(clear, 9e5);
-    clear.range_max_m = 30.0;
-    clear.range_bins = 144;
+    set_range(clear, clear.range_min_m, 30.0, 144);
     clear.elevation_deg = 4.0;
     mission.sensors[1] = clear;
     mission.sensors[1].name = "coastal";

@@ -68,9 +68,8 @@ TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
             CHECK(particle.velocity_m_s.x() == 0.5);
         }
         const auto uniform = [](double x) { return std::min(1.0, std::max(0.0, x)); };
-        CHECK(ks_p_value(first, uniform) > 1e-3);
-        CHECK(ks_p_value(second, uniform) > 1e-3);
-        CHECK(ks_p_value(lengths, uniform) > 1e-3);
+        for (const auto& drawn_shares : {first, second, lengths})
+            CHECK(ks_p_value(drawn_shares, uniform) > 1e-3);
     }
 }
 

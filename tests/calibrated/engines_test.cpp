@@ -1,6 +1,7 @@
 #include "simulate/reference/reference.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/lattices.h"
 
 namespace {
@@ -14,25 +15,22 @@ Scene bottom_with_objects() {
 }
 
 /// A plane bottom 5 m below the vehicle, strewn with 300 stones of 5 to 20 cm.
-Scene bottom_with_stones(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+Scene bottom_with_stones(Uniform& random) {
     Scene scene = floor_scene(14.0F, -5.0F, 0.4F, 4);
     for (int k = 0; k < 300; ++k) {
-        const float x = 2.0F * unit(random) - 1.0F;
-        const float y = 24.0F * unit(random) - 12.0F;
-        const float radius = 0.05F + 0.15F * unit(random);
-        add_sphere(scene, {x, y, -5.0F}, radius, 0, 12);
+        const float x = random.single(-1.0, 1.0);
+        const float y = random.single(-12.0, 12.0);
+        add_sphere(scene, {x, y, -5.0F}, random.single(0.05, 0.2), 0, 12);
     }
     return scene;
 }
 
 /// Ground of ripples of drawn height, length and direction.
-Scene ripples(std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+Scene ripples(Uniform& random) {
     Scene scene = floor_scene(12.0F, 0.0F, 0.4F, 240);
-    const float turn = 3.14F * unit(random);
-    const float per_m = 6.28F / (0.4F + 0.6F * unit(random));
-    const float height_m = 0.02F + 0.03F * unit(random);
+    const float turn = random.single(0.0, pi);
+    const float per_m = 6.28F / random.single(0.4, 1.0);
+    const float height_m = random.single(0.02, 0.05);
     for (Eigen::Vector3f& vertex : scene.vertices) {
         const float along = std::cos(turn) * vertex.x() + std::sin(turn) * vertex.y();
         vertex.z() = height_m * std::sin(per_m * along);
@@ -53,8 +51,7 @@ double error_of(const Sonar& sonar, const Scene& scene, EngineKind engine, const
 // Stones are smaller than a column is wide, and so is the beam: strips weigh each piece by the
 // beam at its middle.
 TEST_CASE("side-scan: stones in a narrow beam are visible") {
-    std::mt19937 random(29);
-    std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+    Uniform random(29);
     double error = 0.0;
     constexpr int scenes = 6;
     for (int k = 0; k < scenes; ++k) {
@@ -64,8 +61,8 @@ TEST_CASE("side-scan: stones in a narrow beam are visible") {
         set_range(config, 0.5, 12.0, 230);
         config.elevation_deg = 6.0;
         const Sonar sonar = make_sonar(config, {0.03});
-        Pose pose;
-        pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};
+        const double aside_m = random.between(-0.5, 0.5);
+        const Pose pose{.translation = {random.between(-0.5, 0.5), aside_m, 0.15}};
         error +=
             error_of(sonar, scene, EngineKind::automatic, pose, {0.02, 64.0, 2'000'000}) / scenes;
     }
@@ -96,19 +93,15 @@ TEST_CASE("multipath of auto and of strips is that of rays") {
 TEST_CASE("speckle over ripples keeps the level of the expected image") {
     SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 7.5e5);
     config.instrument.speckle.mode = SpeckleMode::scene;
-    config.range_min_m = 1.0;
-    config.range_max_m = 10.0;
+    set_range(config, 1.0, 10.0, config.range_bins);
     const Sonar sonar = make_sonar(config, {0.03});
     const auto mean_db = [&](EngineKind engine) {
-        std::mt19937 random(31);
-        std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+        Uniform random(31);
         constexpr int scenes = 8;
         double db = 0.0;
         for (int k = 0; k < scenes; ++k) {
             const Scene scene = ripples(random);
-            Pose pose;
-            pose.translation.z() = 1.5;
-            pose.rotation = Eigen::AngleAxisd(0.25 + 0.1 * unit(random), Eigen::Vector3d::UnitY());
+            const Pose pose = pitched(random.between(14.0, 20.0), {0.0, 0.0, 1.5});
             const auto sum = [&](const Terms& terms) -> double {
                 return total(expected_image(sonar, scene, engine, pose, terms));
             };
@@ -125,15 +118,13 @@ TEST_CASE("speckle over ripples keeps the level of the expected image") {
 // Columns cut slanted triangles into wedges. As parallelograms, their energies lie in other
 // bins: the error is 3.6 %.
 TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
-    std::mt19937 random(5);
+    Uniform random(5);
     SonarConfig config = calibrated(small_imaging(), 7.5e5);
     set_range(config, 1.0, 10.0, 500);
     config.azimuth_bins = 96;
     config.azimuth_deg = 15.0;
     const Sonar sonar = make_sonar(config, {0.03});
-    Pose pose;
-    pose.translation.z() = 1.5;
-    pose.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
+    const Pose pose = pitched(17.2, {0.0, 0.0, 1.5});
     constexpr int scenes = 3;
     double error = 0.0;
     for (int k = 0; k < scenes; ++k) {
@@ -149,13 +140,11 @@ TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
 TEST_CASE("rays and strips agree within twice the error goal") {
     Scene flat = floor_scene(14.0F, -5.0F, 0.4F, 4);
     SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);
-    side.range_max_m = 12.0;
-    side.range_bins = 230;
+    set_range(side, side.range_min_m, 12.0, 230);
     side.elevation_deg = 6.0;
     SonarConfig sounder = calibrated(default_sonar(SonarKind::echosounder), 2e5);
     sounder.opening_deg = 24.0;
-    sounder.range_max_m = 10.0;
-    sounder.range_bins = 190;
+    set_range(sounder, sounder.range_min_m, 10.0, 190);
     sounder.instrument.beam.width_deg = 7.0;
     for (const Scene& scene : {flat, bottom_with_objects()}) {
         for (const SonarConfig& config : {side, sounder}) {
@@ -173,12 +162,10 @@ TEST_CASE("the energy of thin structures is right") {
     constexpr double goal = 0.03;
     double mean = 0.0;
     constexpr int scenes = 6;
-    for (int k = 0; k < scenes; ++k) {
-        Lattice lattice = draw_lattice(100 + 2 * static_cast<std::uint32_t>(k));
-        if (k == scenes - 1) lattice = draw_lattice(114);
+    for (const std::uint32_t number : {100U, 102U, 104U, 106U, 108U, 114U}) {
+        const Lattice lattice = draw_lattice(number);
         CAPTURE(lattice.shape);
-        SonarConfig config = bare_sonar(lattice.sonar, 4e5);
-        Sonar sonar = make_sonar(config, {goal});
+        Sonar sonar = make_sonar(bare_sonar(lattice.sonar, 4e5), {goal});
         sonar.T_vehicle_sensor = Pose{};
         const double error =
             error_of(sonar, lattice.scene, EngineKind::automatic, {}, {0.01, 32.0, 400'000});

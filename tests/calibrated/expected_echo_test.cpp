@@ -2,7 +2,6 @@
 
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/signal/decibel.h"
-#include "support/statistics.h"
 
 namespace {
 
@@ -24,67 +23,47 @@ double sand_over_full_scale_db(const Sonar& sonar, double range_m) {
 
 /// A floor of sand that meets the axis of a sonar at the origin at 20 degrees of grazing.
 Scene sand_at(double range_m) {
-    Scene scene = empty_scene();
-    const std::uint32_t sand = add_material(scene, 0.1F);
-    scene.materials[sand] = example_sand();
-    add_floor(scene, static_cast<float>(2.0 * range_m),
-              static_cast<float>(-range_m * std::sin(radians(20.0))), sand, 4);
-    return scene;
+    return bed_scene(example_sand(), static_cast<float>(2.0 * range_m),
+                     -range_m * std::sin(radians(20.0)));
 }
 
-/// The mean of the rows about a range.
+/// The mean of the rows about a range. Off the middle a beam is a cone, and meets the floor at
+/// another angle.
 double mean_at(const Sonar& sonar, const std::vector<float>& image, double range_m, int rows) {
-    const View& view = sonar.settings.view;
-    const int middle = static_cast<int>((range_m - view.range_min_m) / view.bin_m());
-    double sum = 0.0;
-    int count = 0;
-    for (int row = middle - rows; row <= middle + rows; ++row) {
-        // Off the middle a beam is a cone, and meets the floor at another angle.
-        for (int beam = view.beams / 4; beam < view.beams - view.beams / 4; ++beam, ++count)
-            sum += image[static_cast<std::size_t>(row) * view.beams + beam];
-    }
-    return sum / count;
+    const int beams = sonar.settings.view.beams;
+    return image_array(image, beams)
+        .block(bin_at(sonar, range_m) - rows, beams / 4, 2 * rows + 1, beams - beams / 4 * 2)
+        .mean();
 }
 
 /// A floor of a grain size at z = 0.
 Scene bed_of(double phi) {
-    Scene scene = empty_scene();
-    const std::uint32_t bed = add_material(scene, 0.1F);
-    scene.materials[bed].grain_phi = phi;
-    add_floor(scene, 150.0F, 0.0F, bed, 4);
-    return scene;
+    return bed_scene({.name = "bed", .grain_phi = phi}, 150.0F, 0.0);
 }
 
 /// The mean power of each range bin over pings and the beams from `first` to `last` of a sonar over
 /// a bed, as its preset delivers it.
-std::vector<double> mean_rows(const Sonar& sonar, const Scene& scene, double altitude_m, int first,
-                              int last) {
+Eigen::ArrayXd mean_rows(const Sonar& sonar, const Scene& scene, double altitude_m, int first,
+                         int last) {
     constexpr int pings = 6;
-    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const auto engine = make_rays_engine(scene);
     const View& view = sonar.settings.view;
-    std::vector<double> out(view.range_bins);
+    Eigen::ArrayXd out = Eigen::ArrayXd::Zero(view.range_bins);
     for (std::uint32_t ping = 0; ping < pings; ++ping) {
-        Pose vehicle;
-        vehicle.translation = {0.5 * ping, 0.0, altitude_m};
-        const std::vector<float> image =
-            render_ping(sonar, scene, *engine, vehicle, {.seed = 1, .ping = ping}).intensity;
-        for (int row = 0; row < view.range_bins; ++row) {
-            for (int beam = first; beam < last; ++beam) {
-                out[row] += image[static_cast<std::size_t>(row) * view.beams + beam] /
-                            static_cast<double>(pings * (last - first));
-            }
-        }
+        const Pose vehicle{.translation = {0.5 * ping, 0.0, altitude_m}};
+        const Ping image = render_ping(sonar, scene, *engine, vehicle, {.seed = 1, .ping = ping});
+        const auto beams = image_array(image.intensity, view.beams).middleCols(first, last - first);
+        out += beams.cast<double>().rowwise().mean() / pings;
     }
     return out;
 }
 
-double mean_between(const Sonar& sonar, const std::vector<double>& rows, double from_m,
-                    double to_m) {
+double mean_between(const Sonar& sonar, const Eigen::ArrayXd& rows, double from_m, double to_m) {
     const View& view = sonar.settings.view;
     const auto row_at = [&](double range_m) {
         return static_cast<int>(std::ceil((range_m - view.range_min_m) / view.bin_m() - 0.5));
     };
-    return mean({rows.begin() + row_at(from_m), rows.begin() + row_at(to_m)});
+    return rows.segment(row_at(from_m), row_at(to_m) - row_at(from_m)).mean();
 }
 
 }  // namespace
@@ -105,7 +84,7 @@ TEST_CASE("presets: a flat floor in the picture is as far above the noise as by 
         CAPTURE(c.preset);
         const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
         const CalibratedModel& model = calibrated_model_of(sonar);
-        const Pose pose{rotation_from_rpy(0.0, radians(c.pitch_deg), 0.0), Eigen::Vector3d::Zero()};
+        const Pose pose = pitched(c.pitch_deg);
         const std::vector<float> echo =
             expected_image(sonar, sand_at(c.range_m), EngineKind::rays, pose);
         const std::vector<float> noise =
@@ -127,7 +106,7 @@ TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form
     constexpr double depth_m = 12.525;
     const std::vector<float> image =
         expected_image(sonar, sand_at(depth_m / std::sin(radians(20.0))), EngineKind::rays);
-    const double found_db = db_of_power(*std::ranges::max_element(image));
+    const double found_db = db_of_power(std::ranges::max(image));
     CHECK(std::fabs(found_db - sand_over_full_scale_db(sonar, depth_m)) < 1.0);
 }
 
@@ -136,7 +115,7 @@ TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form
 TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
     const auto level_db = [](const char* preset, double altitude_m, double phi) {
         const Sonar sonar = preset_sonar(preset, "");
-        const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
+        const Eigen::ArrayXd rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
         const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
         const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
         return db_of_power(bottom / water);
@@ -157,10 +136,9 @@ TEST_CASE("presets: the ring of a multibeam sonar") {
     constexpr double altitude_m = 10.0;
     for (const double phi : {1.5, 6.0}) {
         // Beams from 35 to 55 degrees off.
-        const std::vector<double> rows =
+        const Eigen::ArrayXd rows =
             mean_rows(sonar, bed_of(phi), altitude_m, view.beams * 5 / 120, view.beams * 25 / 120);
-        const int first = static_cast<int>((altitude_m - view.range_min_m) / view.bin_m());
-        const double ring = *std::max_element(rows.begin() + first - 2, rows.begin() + first + 6);
+        const double ring = rows.segment(bin_at(sonar, altitude_m) - 2, 8).maxCoeff();
         const double water = mean_between(sonar, rows, 0.5 * altitude_m, 0.9 * altitude_m);
         CHECK(std::fabs(db_of_power(ring / water) - 31.0) < 6.0);
     }

@@ -72,7 +72,7 @@ TEST_CASE("beams that the array does not resolve are traced two at a time at coa
         config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
         const Sonar joined = make_sonar(config, {0.02});
         REQUIRE(joined.settings.view.guards.joined == 2);
-        const auto engine = make_engine(scene, {.type = EngineKind::strips, .octree = {}});
+        const auto engine = engine_of(scene, EngineKind::strips);
         const Samples samples = visible_surface(joined.settings.view, *engine, {});
         REQUIRE(std::ssize(samples.beam_begin) == joined.settings.view.beams + 1);
         CHECK(samples.in_no_beam().empty() == (view_azimuth_deg == 0.0));

@@ -9,15 +9,10 @@
 
 namespace {
 
-constexpr int steps = 4000;
-
 /// Integral over [-1, 1] of a function of the sine.
 template <class Function>
 double over_sines(const Function& value) {
-    double sum = 0.0;
-    for (int k = 0; k < steps; ++k)
-        sum += value(2.0 * (k + 0.5) / steps - 1.0) * 2.0 / steps;
-    return sum;
+    return integral(-1.0, 1.0, 4000, value);
 }
 
 SonarConfig imaging() {
@@ -81,15 +76,12 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
         CHECK(std::fabs(db_of_power(line_directivity(line) * line_integral / (4.0 * pi))) < 0.05);
         const LineArray across = line_array(radians(20.0), side_lobe_db);
         const double rectangle_integral = over_sines([&](double u) {
-            const double along = std::pow(line_pattern(line, u), 2.0);
-            double sum = 0.0;
-            for (int k = 0; k < 400; ++k) {  // over the angle whose sine is v, over its part
-                const double v = 2.0 * (k + 0.5) / 400 - 1.0;
-                const double rest = 1.0 - u * u - v * v;
-                if (rest > 1e-4)
-                    sum += std::pow(line_pattern(across, v), 2.0) / std::sqrt(rest) * 2.0 / 400;
-            }
-            return along * sum;
+            // Over the angle whose sine is v.
+            return std::pow(line_pattern(line, u), 2.0) * integral(-1.0, 1.0, 400, [&](double v) {
+                       const double rest = 1.0 - u * u - v * v;
+                       return rest > 1e-4 ? std::pow(line_pattern(across, v), 2.0) / std::sqrt(rest)
+                                          : 0.0;
+                   });
         });
         CHECK(std::fabs(db_of_power(rectangle_directivity(line, across) * rectangle_integral /
                                     (4.0 * pi))) < 0.2);
@@ -97,12 +89,10 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
     for (const double width_deg : {3.0, 7.0, 15.0}) {
         CAPTURE(width_deg);
         const double scale = piston_scale(radians(width_deg));
-        double sum = 0.0;
-        for (int k = 0; k < steps; ++k) {
-            const double angle = 0.5 * pi * (k + 0.5) / steps;
-            sum += 2.0 * pi * std::pow(piston_pattern(scale * std::sin(angle)), 2.0) *
-                   std::sin(angle) * 0.5 * pi / steps;
-        }
+        const double sum =
+            2.0 * pi * integral(0.0, 0.5 * pi, 4000, [&](double angle) {
+                return std::pow(piston_pattern(scale * std::sin(angle)), 2.0) * std::sin(angle);
+            });
         CHECK(std::fabs(db_of_power(piston_directivity(radians(width_deg)) * sum / (4.0 * pi))) <
               0.2);
     }
@@ -206,19 +196,14 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
     const double half_m = 0.5 * config.range_max_m;
     const double down_rad = radians(20.0);
     const Sonar sonar = make_sonar(config, {});
-    Scene scene = empty_scene();
-    scene.materials = {example_sand()};
-    add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
-    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
-    const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
+    const Scene scene = bed_scene(example_sand(), 50.0F, -half_m * std::sin(down_rad), 8);
+    const auto engine = make_rays_engine(scene);
     std::vector<float> near_half;
     for (std::uint32_t number = 0; number < 4; ++number) {
-        const Ping ping = render_ping(sonar, scene, *engine, look, {.seed = number + 1, .ping = 0});
-        const int middle = static_cast<int>((half_m - config.range_min_m) / 0.05);
-        for (int i = middle - 10; i < middle + 10; ++i) {
-            for (int j = 0; j < ping.beams; ++j)
-                near_half.push_back(ping.intensity[i * ping.beams + j]);
-        }
+        const Ping ping =
+            render_ping(sonar, scene, *engine, pitched(20.0), {.seed = number + 1, .ping = 0});
+        const auto middle = ping.intensity.begin() + bin_at(sonar, half_m) * ping.beams;
+        near_half.insert(near_half.end(), middle - 10 * ping.beams, middle + 10 * ping.beams);
     }
     const auto at = near_half.begin() + static_cast<std::ptrdiff_t>(0.99 * near_half.size());
     std::ranges::nth_element(near_half, at);

@@ -22,10 +22,7 @@ TracedPing ping_of_points(const std::vector<Eigen::Vector3f>& places) {
 /// The sum of a beam's bins by that of the pulse's taps: the power of the echo before the pulse.
 double echo_of_beam(const CalibratedModel& model, const std::vector<float>& image, int beams,
                     int beam) {
-    double sum = 0.0;
-    for (std::size_t k = beam; k < image.size(); k += beams)
-        sum += image[k];
-    return sum / total(model.power_taps.taps);
+    return total(image_array(image, beams).col(beam)) / total(model.power_taps.taps);
 }
 
 /// TS - 40 log r - 2 alpha r, as a ratio.
@@ -68,9 +65,8 @@ TEST_CASE("particles: the level of a target in the beam of a fan, and by elevati
     const View view = view_of(ViewShape::fan, 60.0, 40.0, 61);
     const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 61));
     const auto level = [&](double elevation_deg) {
-        const double up = radians(elevation_deg);
         const Eigen::Vector3f place =
-            (9.0 * Eigen::Vector3d(std::cos(up), 0.0, std::sin(up))).cast<float>();
+            (9.0 * direction_of(0.0, radians(elevation_deg))).cast<float>();
         const std::vector<float> image = image_of_traced(model, view, ping_of_points({place}), {});
         return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
     };
@@ -87,9 +83,8 @@ TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
     const CalibratedModel model = calibrated_model(config, {}, view, {});
     const auto peak = [&](const std::vector<Eigen::Vector3f>& places, std::uint32_t ping,
                           std::uint64_t seed) {
-        const std::vector<float> image =
-            image_of_traced(model, view, ping_of_points(places), {}, {seed, 2, ping});
-        return *std::max_element(image.begin(), image.end());
+        return std::ranges::max(
+            image_of_traced(model, view, ping_of_points(places), {}, {seed, 2, ping}));
     };
     const Eigen::Vector3f place{9.05F, 0.0F, 0.0F};
     const float one = peak({place}, 0, 7);
@@ -123,23 +118,19 @@ TEST_CASE("particles: nothing is added behind the last target of a block") {
         places.emplace_back(2.5F + 0.06F * static_cast<float>(k), 0.0F, 0.0F);
     const std::vector<float> image = image_of_traced(model, view, ping_of_points(places), {});
     constexpr int before = 40 * 5;  // bins from 2.0 to 2.4 m
-    CHECK(*std::max_element(image.begin(), image.begin() + before) < 1e-18F);
-    CHECK(*std::max_element(image.begin(), image.end()) > 1e-7F);
+    CHECK(std::ranges::max(std::span(image).first(before)) < 1e-18F);
+    CHECK(std::ranges::max(image) > 1e-7F);
 }
 
 // The object of the bins is the target, where it is stronger than the floor behind.
 TEST_CASE("particles: labels at their bin and beam") {
-    SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 2e5);
     config.azimuth_deg = 60.0;
     config.elevation_deg = 20.0;
     config.azimuth_bins = 60;
     set_range(config, 2.0, 22.0, 200);
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_quad(scene, {15.0F, -20.0F, -10.0F}, {15.0F, 20.0F, -10.0F}, {15.0F, 20.0F, 10.0F},
-             {15.0F, -20.0F, 10.0F}, rock);
-    scene.instances.resize(1, "wall");
-    scene.instances.push_back("fish_1");
+    Scene scene = rectangle_scene({15, -20, -10}, {15, 20, 10}, 0.4F);
+    scene.instances.emplace_back("fish_1");
     scene.materials.push_back({.name = "fish"});
     Sonar sonar = make_sonar(config, {});
     Particles particles;

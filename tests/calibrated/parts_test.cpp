@@ -87,12 +87,13 @@ TEST_CASE("beams: echoes between the columns have the energy of the pattern on a
     Beamformer::Scratch scratch(beams);
     std::vector<Lanes> out(beams.beams());
     beams.form(&grid, 0, nullptr, scratch, out.data());
-    double received = 0.0;
-    for (const Lanes& powers : out)
-        received += std::accumulate(powers.begin(), powers.end(), 0.0) / lanes;
-    double pattern = 0.0;
-    for (double u = -40.0 * step; u < 40.0 * step; u += 0.01 * step)
-        pattern += 0.01 * line_pattern(array, u) * line_pattern(array, u);
+    const double received =
+        std::accumulate(out.begin(), out.end(), 0.0,
+                        [](double sum, const Lanes& powers) { return sum + total(powers); }) /
+        lanes;
+    const double pattern = integral(-40.0, 40.0, 8000, [&](double beam) {
+        return std::pow(line_pattern(array, beam * step), 2.0);
+    });
     CHECK(std::fabs(received / pattern - 1.0) < 0.003);
 }
 
@@ -123,17 +124,12 @@ TEST_CASE("beams: out of focus amplitudes and powers have Fresnel's pattern, and
             const std::vector<double> in_focus = pattern(powers, 5);
             const std::vector<double> out_of_focus = pattern(powers, lanes + 2);
             for (int j = 0; j <= 2 * half; ++j) {
-                constexpr int parts = 1000;
-                std::complex<double> sum = 0.0;
-                for (int k = 0; k < parts; ++k) {
-                    const double x = (k + 0.5) / parts - 0.5;
-                    sum += std::polar(1.0 / parts,
-                                      4.0 * phase * x * x + 2.0 * pi * x * 0.1 * (j - half));
-                }
+                const std::complex<double> sum = integral(-0.5, 0.5, 1000, [&](double x) {
+                    return std::polar(1.0, 4.0 * phase * x * x + 0.2 * pi * x * (j - half));
+                });
                 CHECK(std::fabs(out_of_focus[j] / in_focus[half] - std::norm(sum)) < 0.01);
             }
-            CHECK(std::accumulate(out_of_focus.begin(), out_of_focus.end(), 0.0) ==
-                  approx(std::accumulate(in_focus.begin(), in_focus.end(), 0.0)).epsilon(0.02));
+            CHECK(total(out_of_focus) == approx(total(in_focus)).epsilon(0.02));
         }
     }
 }

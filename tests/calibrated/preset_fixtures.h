@@ -61,10 +61,8 @@ inline Samples patches(const Eigen::Vector3d& centre, const Eigen::Vector3d& alo
 /// The image [range bins, beams] of what is seen from a pose, without the receiver's noise.
 inline std::vector<float> quiet_image(const Sonar& sonar, const Samples& samples, bool speckle,
                                       const Pose& pose = {}, std::uint32_t seed = 1) {
-    Terms terms;
-    terms.random = speckle ? 1 : 0;
-    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, samples, terms, pose,
-                            {seed, 1, 0});
+    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, samples,
+                            {.random = std::size_t{speckle}}, pose, {seed, 1, 0});
 }
 
 }  // namespace sonarsim::test

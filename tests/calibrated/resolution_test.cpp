@@ -9,36 +9,29 @@ Samples point_at(double range_m) {
     return patches({range_m, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, 5e-5, 5e-5, 1e-4);
 }
 
-/// The width of the peak of the values at half of its height, in steps.
-double half_power_width(const std::vector<double>& values) {
-    const auto peak = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+double half_power_width(const Eigen::ArrayXd& values) {
+    Eigen::Index peak = 0;
+    values.maxCoeff(&peak);
     const double half = 0.5 * values[peak];
-    std::size_t low = peak;
+    Eigen::Index low = peak;
     while (values[low] > half)
         --low;
-    std::size_t high = peak;
+    Eigen::Index high = peak;
     while (values[high] > half)
         ++high;
-    const double from =
-        static_cast<double>(low) + (half - values[low]) / (values[low + 1] - values[low]);
-    const double to =
-        static_cast<double>(high) - (half - values[high]) / (values[high - 1] - values[high]);
-    return to - from;
+    const double from = low + (half - values[low]) / (values[low + 1] - values[low]);
+    return high - (half - values[high]) / (values[high - 1] - values[high]) - from;
 }
 
 /// The half-power width of an aperture with errors of phase, as a sine: its pattern is the
 /// transform of its weight.
 double aperture_width(const LineArray& array) {
-    std::vector<double> pattern;
-    constexpr int steps = 200;
+    Eigen::ArrayXd pattern(601);
     constexpr double step = 0.01;  // in lambda / L
     for (int i = -300; i <= 300; ++i) {
-        std::complex<double> sum = 0.0;
-        for (int k = 0; k < steps; ++k) {
-            const double x = (k + 0.5) / steps - 0.5;
-            sum += array.weight(x) * std::polar(1.0, 2.0 * pi * x * i * step);
-        }
-        pattern.push_back(std::norm(sum));
+        pattern[i + 300] = std::norm(integral(-0.5, 0.5, 200, [&](double x) {
+            return array.weight(x) * std::polar(1.0, 2.0 * pi * x * i * step);
+        }));
     }
     return half_power_width(pattern) * step / array.wavelengths;
 }
@@ -80,12 +73,10 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
                 "\n    instrument: {usual_water: none, receiver: {samples: 1}, "
                 "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
         const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
-        const std::size_t peak = std::ranges::max_element(image) - image.begin();
-        std::vector<double> across, along;
-        for (std::size_t j = 0; j < 121; ++j)
-            across.push_back(image[peak / 121 * 121 + j]);
-        for (std::size_t i = 0; i < 61; ++i)
-            along.push_back(image[i * 121 + peak % 121]);
+        const Eigen::ArrayXXd rows = image_array(image, 121).cast<double>();
+        Eigen::Index bin = 0;
+        Eigen::Index beam = 0;
+        rows.maxCoeff(&bin, &beam);
 
         // Without errors of phase this is the width that the preset asks for.
         const LineArray array = array_of(sonar);
@@ -94,8 +85,8 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
             CHECK(std::fabs(width / radians(sonar.config.instrument.beam.width_deg) - 1.0) < 2e-3);
         }
         const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
-        const double beams_m = half_power_width(across) * spacing;
-        const double pulse_m = half_power_width(along) * sonar.settings.view.bin_m();
+        const double beams_m = half_power_width(rows.row(bin).transpose()) * spacing;
+        const double pulse_m = half_power_width(rows.col(beam)) * sonar.settings.view.bin_m();
         CHECK(std::fabs(beams_m / width - 1.0) < 0.02);
         // The linear spline that stands for the pulse is higher than it at its knots.
         CHECK(std::fabs(pulse_m / c.resolution_m - 1.0) < 0.03);

@@ -9,8 +9,7 @@ namespace {
 /// Material 0 is sand, 1 is steel, 2 scatters nothing.
 Scene scene_of_beds() {
     Scene scene;
-    Material sand{.name = "sand"};
-    sand.grain_phi = 1.5;
+    const Material sand{.name = "sand", .grain_phi = 1.5};
     scene.materials = {sand,
                        {.name = "steel", .reflection = 0.8F},
                        {.name = "mirror", .lambert_db = -300.0, .slope_rms_deg = 0.0}};
@@ -68,14 +67,11 @@ TEST_CASE("sea bed: a floor has the level of the sonar equation at every angle")
         config.azimuth_bins = beams;
         config.elevation_deg = 60.0;
         set_range(config, 1.0, 21.0, 500);
-        config.instrument.beam.width_deg = static_cast<double>(draws.between(0.5F, 2.0F));
-        config.instrument.beam.side_lobe_db = static_cast<double>(draws.between(-35.0F, -15.0F));
-        config.instrument.pulse.resolution_m = static_cast<double>(draws.between(0.04F, 0.3F));
+        config.instrument.beam.width_deg = draws.between(0.5F, 2.0F);
+        config.instrument.beam.side_lobe_db = draws.between(-35.0F, -15.0F);
+        config.instrument.pulse.resolution_m = draws.between(0.04F, 0.3F);
         const Sonar sonar = make_sonar(config, {});
-        Scene scene = empty_scene();
-        scene.materials.push_back(example_sand());
-        add_floor(scene, 60.0F, -static_cast<float>(depth_m),
-                  static_cast<std::uint32_t>(scene.materials.size() - 1), 100);
+        const Scene scene = bed_scene(example_sand(), 60.0F, -depth_m, 100);
         const std::vector<float> image = expected_image(sonar, scene, engine);
         const View& view = sonar.settings.view;
         const double alpha = calibrated_model_of(sonar).absorption_db_per_m;
@@ -124,8 +120,7 @@ TEST_CASE("sea bed: in a scene of many materials each scatters as if it were alo
     Scene many;
     for (int k = 0; k < 6; ++k) {
         many.materials.push_back({.name = "plain", .lambert_db = -20.0 - k});
-        many.materials.push_back({.name = "bed"});
-        many.materials.back().grain_phi = 1.5 * k;
+        many.materials.push_back({.name = "bed", .grain_phi = 1.5 * k});
     }
     for (std::uint32_t k = 0; k < many.materials.size(); ++k) {
         Scene alone;

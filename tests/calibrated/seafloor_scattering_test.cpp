@@ -2,14 +2,12 @@
 
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/signal/decibel.h"
-#include "support/test.h"
+#include "support/draws.h"
 
 namespace {
 
 Material grain_size_material(double phi) {
-    Material material{.name = "bed"};
-    material.grain_phi = phi;
-    return material;
+    return {.name = "bed", .grain_phi = phi};
 }
 
 Backscatter scattering_at(const Material& material, double frequency_hz,
@@ -81,14 +79,12 @@ void check_curves(const std::array<Curve, 9>& curves, double frequency_hz) {
 /// integral of 2 W (1 - cos(K u)) d^2K. At u it is u^(g - 2) times as large.
 double structure_function_at_1_m(const SeaBed& bed) {
     const double g = bed.spectral_exponent;
-    static constexpr int steps = 40000;
     static constexpr double low = -9.0;  // both are logarithms of x
     static constexpr double high = 7.0;
-    double sum = 0.0;
-    for (int k = 0; k < steps; ++k) {
-        const double x = std::exp(low + (high - low) * (k + 0.5) / steps);
-        sum += (1.0 - std::cyl_bessel_j(0.0, x)) * std::pow(x, 2.0 - g) * (high - low) / steps;
-    }
+    double sum = integral(low, high, 40000, [&](double log_x) {
+        const double x = std::exp(log_x);
+        return (1.0 - std::cyl_bessel_j(0.0, x)) * std::pow(x, 2.0 - g);
+    });
     // Below the lowest x the integrand is x^(3 - g) / 4, above the highest its mean is x^(1 - g).
     sum += std::exp(low * (4.0 - g)) / (4.0 * (4.0 - g)) + std::exp(high * (2.0 - g)) / (g - 2.0);
     return 4.0 * pi * bed.spectral_strength * sum;
@@ -102,31 +98,26 @@ double reflection_of(const SeaBed& bed) {
 /// The integral over all directions of a function of the sine and the grazing angle.
 template <class Function>
 double over_directions(const Function& specular) {
-    double sum = 0.0;
-    constexpr double step = 1e-4;
-    for (double theta = 0.5 * step; theta < 0.5 * pi; theta += step)
-        sum += specular(static_cast<float>(std::cos(theta)), 0.5 * pi - theta) * 2.0 * pi *
-               std::sin(theta) * step;
-    return sum;
+    return integral(0.0, 0.5 * pi, 15700, [&](double theta) {
+        return specular(static_cast<float>(std::cos(theta)), 0.5 * pi - theta) * 2.0 * pi *
+               std::sin(theta);
+    });
 }
 
 /// A sea bed with numbers within the limits of the CSV.
-Material random_bed(std::mt19937& random) {
-    const auto within = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
+Material random_bed(Uniform& random) {
     const auto by_decades = [&](double low, double high) {
-        return std::pow(10.0, within(low, high));
+        return std::pow(10.0, random.between(low, high));
     };
-    Material material = grain_size_material(within(-10.0, 9.0));
-    if (within(0.0, 1.0) < 0.3) return material;
+    Material material = grain_size_material(random.between(-10.0, 9.0));
+    if (random.between(0.0, 1.0) < 0.3) return material;
     material.grain_phi.reset();
     material.density_kg_m3 = by_decades(-9.0, 9.0);
     material.sound_speed_m_s = by_decades(-9.0, 9.0);
     material.loss_parameter = by_decades(-6.0, 0.0);
     material.spectral_strength_cm4 = by_decades(-9.0, 1.0);
-    material.spectral_exponent = within(2.4, 3.9);
-    material.volume_parameter = within(0.0, 1.0);
+    material.spectral_exponent = random.between(2.4, 3.9);
+    material.volume_parameter = random.between(0.0, 1.0);
     return material;
 }
 
@@ -167,14 +158,10 @@ TEST_CASE("sea bed: at normal incidence the Kirchhoff integral of the spectrum")
         bed.spectral_exponent = exponent;
         const double k = 2.0 * pi * 1e5 / 1500.0;
         const double at_1_m = structure_function_at_1_m(bed);
-        double sum = 0.0;
-        constexpr int steps = 20000;
-        for (int i = 0; i < steps; ++i) {
-            const double log_u = -20.0 + 20.0 * (i + 0.5) / steps;
+        const double sum = integral(-20.0, 0.0, 20000, [&](double log_u) {
             const double u = std::exp(log_u);
-            sum += std::exp(-2.0 * k * k * at_1_m * std::pow(u, exponent - 2.0)) * u * u * 20.0 /
-                   steps;
-        }
+            return std::exp(-2.0 * k * k * at_1_m * std::pow(u, exponent - 2.0)) * u * u;
+        });
         const double expected = reflection_of(bed) * k * k / (2.0 * pi) * sum;
         CAPTURE(exponent);
         const double found = SeafloorScattering(bed, k).specular(0.5 * pi);
@@ -236,14 +223,14 @@ TEST_CASE("sea bed: without roughness only the volume scatters") {
 }
 
 TEST_CASE("sea bed: both ways along one direction are one, and sender and receiver change") {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> sine(0.0F, 1.0F);
+    Uniform random(3);
+    const auto sine = [&] { return random.single(0.0, 1.0); };
     for (int k = 0; k < 30; ++k) {
         const Backscatter bed = scattering_at(random_bed(random), 3e5);
         for (int i = 0; i < 30; ++i) {
-            const float in = sine(random);
-            const float out = sine(random);
-            const float half = sine(random);
+            const float in = sine();
+            const float out = sine();
+            const float half = sine();
             CHECK(bed.between(in, out, half) == bed.between(out, in, half));
             CHECK(std::fabs(bed.between(in, in, in) - bed.at(in)) <= 1e-5F * bed.at(in));
         }
@@ -251,11 +238,10 @@ TEST_CASE("sea bed: both ways along one direction are one, and sender and receiv
 }
 
 TEST_CASE("sea bed: no legal numbers give a strength that is not finite") {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> decade(3.0, 7.5);
+    Uniform random(5);
     for (int k = 0; k < 300; ++k) {
         const Material material = random_bed(random);
-        const Backscatter bed = scattering_at(material, std::pow(10.0, decade(random)));
+        const Backscatter bed = scattering_at(material, std::pow(10.0, random.between(3.0, 7.5)));
         CAPTURE(k);
         for (int i = 0; i <= 90; i += 3) {
             const float sigma = bed.at(static_cast<float>(std::sin(radians(i))));

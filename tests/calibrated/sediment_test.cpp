@@ -10,14 +10,6 @@ namespace {
 constexpr double sounder_hz = 38e3;
 constexpr double bed_phi = 6.0;
 
-Scene bed_at(float depth_m, double phi) {
-    Scene scene = empty_scene();
-    const std::uint32_t material = add_material(scene, 0.1F);
-    scene.materials[material].grain_phi = phi;
-    add_floor(scene, 20.0F, -depth_m, material, 4);
-    return scene;
-}
-
 /// Looks down from the origin, with bins of 2 cm and a pulse of one.
 Sonar bed_sounder(bool below_bottom, double frequency_hz = sounder_hz) {
     SonarConfig config = bare_sonar(default_sonar(SonarKind::echosounder), frequency_hz);
@@ -74,7 +66,7 @@ TEST_CASE("sediment: at normal incidence the tail decays by the attenuation of t
 // The whole beam of 7 degrees sees the bottom within 10 m and 10 / cos(7 degrees) = 10.08 m;
 // the tail behind it is exponential. The pulse's own side lobes end two bins behind.
 TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope") {
-    const Scene scene = bed_at(10.0F, bed_phi);
+    const Scene scene = bed_scene({.name = "bed", .grain_phi = bed_phi}, 20.0F, -10.0);
     const std::vector<float> whole = expected_image(bed_sounder(false), scene, EngineKind::rays);
     const std::vector<float> divided = expected_image(bed_sounder(true), scene, EngineKind::rays);
     const SeafloorScattering bed(sea_bed_of_grain_size(bed_phi), bed_wavenumber());
@@ -87,7 +79,7 @@ TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope
 
 // At 1.2 MHz sand swallows all sound within a millimetre.
 TEST_CASE("sediment: what lies within a part of a bin changes no bit") {
-    const Scene scene = bed_at(10.0F, 1.5);
+    const Scene scene = bed_scene({.name = "bed", .grain_phi = 1.5}, 20.0F, -10.0);
     CHECK(expected_image(bed_sounder(true, 1.2e6), scene, EngineKind::rays) ==
           expected_image(bed_sounder(false, 1.2e6), scene, EngineKind::rays));
 }
@@ -117,20 +109,16 @@ TEST_CASE("bottom: both ways along one direction are one, and facets send on wha
     // Facets meet the part v . n of the sound and send on R of it, over all directions.
     const Backscatter facets = backscatter(-300.0, 0.4, slope);
     const double in = radians(60.0);  // grazing angle
-    double sent = 0.0;
     constexpr int steps = 400;
-    for (int i = 0; i < steps; ++i) {
-        const double elevation = (i + 0.5) * 0.5 * pi / steps;
-        for (int j = 0; j < 4 * steps; ++j) {
-            const double azimuth = (j + 0.5) * 2.0 * pi / (4 * steps);
-            const Eigen::Vector3d sum(std::cos(in) + std::cos(elevation) * std::cos(azimuth),
-                                      std::cos(elevation) * std::sin(azimuth),
-                                      std::sin(in) + std::sin(elevation));
-            const float half = static_cast<float>(sum.z() / sum.norm());
-            sent += facets.between(static_cast<float>(std::sin(in)),
-                                   static_cast<float>(std::sin(elevation)), half) *
-                    std::cos(elevation) * (0.5 * pi / steps) * (2.0 * pi / (4 * steps));
-        }
-    }
+    const double sent = integral(0.0, 0.5 * pi, steps, [&](double elevation) {
+        return std::cos(elevation) * integral(0.0, 2.0 * pi, 4 * steps, [&](double azimuth) {
+                   const Eigen::Vector3d sum =
+                       direction_of(0.0, in) + direction_of(azimuth, elevation);
+                   const float half = static_cast<float>(sum.z() / sum.norm());
+                   return static_cast<double>(
+                       facets.between(static_cast<float>(std::sin(in)),
+                                      static_cast<float>(std::sin(elevation)), half));
+               });
+    });
     CHECK(std::fabs(sent / (0.4 * std::sin(in)) - 1.0) < 0.01);
 }

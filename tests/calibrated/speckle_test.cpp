@@ -1,5 +1,7 @@
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/speckle/scatterers.h"
+#include "support/draws.h"
+
 #include "support/statistics.h"
 
 namespace {
@@ -10,16 +12,13 @@ namespace {
 ///
 ///     integral of w(x + s/2) w*(x - s/2) exp(2 pi i x t) dx / integral of |w|^2 dx
 double power_correlation(const LineArray& array, double moved, double turned) {
-    constexpr int steps = 300;
-    std::complex<double> sum = 0.0;
-    double power = 0.0;
-    for (int k = 0; k < steps; ++k) {
-        const double x = 2.0 * (k + 0.5) / steps - 1.0;
-        sum += array.weight(x + 0.5 * moved) * std::conj(array.weight(x - 0.5 * moved)) *
-               std::polar(1.0, 2.0 * pi * x * turned);
-        power += std::norm(array.weight(x));
-    }
-    return std::norm(sum / power);
+    const auto overlap = [&](double moved_by, double turned_by) {
+        return integral(-1.0, 1.0, 300, [&](double x) {
+            return array.weight(x + 0.5 * moved_by) * std::conj(array.weight(x - 0.5 * moved_by)) *
+                   std::polar(1.0, 2.0 * pi * x * turned_by);
+        });
+    };
+    return std::norm(overlap(moved, turned) / overlap(0.0, 0.0));
 }
 
 /// The same of two ranges: a pulse's band has the taper of an array.
@@ -213,8 +212,7 @@ TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
     constexpr double resolution_m = 0.015;
     const double width = radians(0.6);
     const ScattererCells cells = scatterer_cells(resolution_m, width, 0.3, 1e-3);
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Uniform random(7);
     for (const double range : {0.4, 0.7, 1.1, 1.6, 2.3, 3.3, 5.0, 9.0, 20.0}) {
         CAPTURE(range);
         const double across_m = width * range;
@@ -223,10 +221,10 @@ TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
                                        {0.0, 1.0, 0.0}, half_m, half_m, 0.25 * half_m, {});
         std::vector<double> powers;
         for (std::uint32_t seed = 1; seed <= 400; ++seed) {
-            const double turn = pi * unit(random);
-            SonarInScene sonar{Eigen::AngleAxisf(static_cast<float>(turn), Eigen::Vector3f::UnitZ())
-                                   .toRotationMatrix(),
-                               {unit(random), unit(random), unit(random)}};
+            const auto turn = random.single(0.0, pi);
+            const auto metres = [&] { return random.between(0.0, 1.0); };
+            SonarInScene sonar{Eigen::AngleAxisf(turn, Eigen::Vector3f::UnitZ()).toRotationMatrix(),
+                               {metres(), metres(), metres()}};
             Scatterers block;
             double power = 0.0;
             find_scatterers(ground.items, ViewShape::fan, cells, sonar, {seed, 1}, block,

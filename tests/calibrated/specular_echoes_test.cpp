@@ -19,16 +19,14 @@ SonarConfig with_mirrors(const SonarConfig& kept, double frequency_hz = 3e5) {
 SonarConfig echosounder() {
     SonarConfig config = with_mirrors(default_sonar(SonarKind::echosounder));
     config.opening_deg = 50.0;
-    config.range_max_m = 20.0;
-    config.range_bins = 400;
+    set_range(config, config.range_min_m, 20.0, 400);
     return config;
 }
 
 SonarConfig sidescan() {
     SonarConfig config = with_mirrors(default_sonar(SonarKind::sidescan));
     config.elevation_deg = 4.0;
-    config.range_max_m = 10.0;
-    config.range_bins = 200;
+    set_range(config, config.range_min_m, 10.0, 200);
     return config;
 }
 
@@ -123,11 +121,10 @@ TEST_CASE("specular echoes: a plate over a floor that is a mirror has the level 
         for (Material& material : scene.materials)
             material.slope_rms_deg = 0.0;
         add_floor(scene, 8.0F, -1.0F, smooth);
-        if (ceiling) {
-            add_quad(scene, {3, -0.5, 1}, {4, -0.5, 1}, {4, 0.5, 1}, {3, 0.5, 1}, rough);
-        } else {
-            add_quad(scene, {4, -0.5, -0.5}, {4, 0.5, -0.5}, {4, 0.5, 0.5}, {4, -0.5, 0.5}, rough);
-        }
+        if (ceiling)
+            add_rectangle(scene, {3, -0.5, 1}, {4, 0.5, 1}, rough);
+        else
+            add_rectangle(scene, {4, -0.5, -0.5}, {4, 0.5, 0.5}, rough);
         double direct = 0.0;
         double specular = 0.0;
         constexpr int steps = 100;
@@ -209,7 +206,7 @@ TEST_CASE("specular echoes: multipath darkens no bin, and has its mean whatever 
 TEST_CASE("second bottom echo: range and level of an echosounder's") {
     const Scene scene = bottom_and_surface();
     const auto engine = make_engine(scene, {});
-    const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, over_bottom_m}};
+    const Pose pose{.translation = {0.0, 0.0, over_bottom_m}};
     const Sonar sonar = wide_echosounder();
     const Ping ping = render_ping(sonar, scene, *engine, pose, {.seed = 1}, without_random_terms);
     const double loss = loss_per_m(sonar);
@@ -247,13 +244,11 @@ TEST_CASE("second bottom echo: that of a side-scan sonar begins at 2 h + d") {
     scene.water_surface = {h + d, 0.9F};
     SonarConfig config = with_mirrors(default_sonar(SonarKind::sidescan));
     config.elevation_deg = 4.0;
-    config.range_max_m = 30.0;
-    config.range_bins = 600;
+    set_range(config, config.range_min_m, 30.0, 600);
     const Sonar sonar = make_sonar(config, {0.01});
     const auto engine = make_engine(scene, {});
-    const Ping ping =
-        render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}},
-                    {.seed = 1}, multipath_alone);
+    const Ping ping = render_ping(sonar, scene, *engine, {.translation = {0.0, 0.0, h}},
+                                  {.seed = 1}, multipath_alone);
     const double bin_m = sonar.settings.view.bin_m();
     const float peak = *std::ranges::max_element(ping.intensity);
     REQUIRE(peak > 0.0F);

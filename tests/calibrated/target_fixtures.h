@@ -27,7 +27,7 @@ inline Sonar target_sonar(SonarKind kind, SpeckleMode speckle = SpeckleMode::non
 inline Scene metal_scene() {
     Scene scene = empty_scene();
     scene.materials[add_material(scene, 0.8F)].slope_rms_deg = slope_deg;
-    add_quad(scene, {-40, -40, -40}, {-39, -40, -40}, {-39, -39, -40}, {-40, -39, -40}, 0);
+    add_rectangle(scene, {-40, -40, -40}, {-39, -39, -40}, 0);
     return scene;
 }
 
@@ -52,7 +52,7 @@ inline double energy_by(Sonar sonar, const Scene& scene, const VisibilityEngine&
 }
 
 inline double energy_by_rays(const Sonar& sonar, const Scene& scene) {
-    return energy_by(sonar, scene, *make_engine(scene, {.type = EngineKind::rays, .octree = {}}));
+    return energy_by(sonar, scene, *engine_of(scene, EngineKind::rays));
 }
 
 /// The energy of a sphere from points on it, close together where it glints.

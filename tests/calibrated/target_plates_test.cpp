@@ -53,10 +53,10 @@ double energy_of_texels(const PlateScene& plate, const Sonar& sonar, const Pose&
 /// The greatest difference of `pings` pings, as the sonar passes, from the points, dB.
 double greatest_error_db(const PlateScene& plate, int pings, double step_m) {
     const Sonar sonar = target_sonar(SonarKind::sidescan);
-    const auto engine = make_engine(plate.scene, {.type = EngineKind::automatic, .octree = {}});
+    const auto engine = engine_of(plate.scene, EngineKind::automatic);
     double worst = 0.0;
     for (int ping = 0; ping < pings; ++ping) {
-        const Pose vehicle{Eigen::Quaterniond::Identity(), {step_m * (ping - pings / 2), 0, 0}};
+        const Pose vehicle{.translation = {step_m * (ping - pings / 2), 0, 0}};
         const double found = energy_by(sonar, plate.scene, *engine, vehicle);
         const double expected = energy_of_texels(plate, sonar, vehicle);
         worst = std::max(worst, std::fabs(db_of_power(found / expected)));
@@ -95,8 +95,8 @@ TEST_CASE("targets: small plates are in every ping, by the pattern at their plac
 TEST_CASE("targets: with maps they are in every ping, with the power of their texels") {
     Draws draws(31);
     for (int draw = 0; draw < 6; ++draw) {
-        const double edge = static_cast<double>(draws.between(0.03F, 0.12F));
-        const double texel = edge * static_cast<double>(draws.between(0.05F, 0.8F));
+        const double edge = draws.between(0.03F, 0.12F);
+        const double texel = edge * draws.between(0.05F, 0.8F);
         CAPTURE_ALL(edge, texel);
         PlateScene plate(edge, {{.name = "dim", .lambert_db = -10.0, .slope_rms_deg = 0.0},
                                 {.name = "bright", .lambert_db = -4.0, .slope_rms_deg = 0.0}});

@@ -1,6 +1,7 @@
 #include "calibrated/target_fixtures.h"
 #include "simulate/trace/target_shapes.h"
 #include "simulate/water/water_ray.h"
+#include "support/draws.h"
 
 namespace {
 
@@ -20,28 +21,26 @@ BallScene behind_wall(BallScene ball, double distance_m, double edge_m, double t
 }  // namespace
 
 TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine") {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Uniform random(11);
     for (const SonarKind kind : {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder,
                                  SonarKind::scanning, SonarKind::profiling}) {
         const Sonar sonar = target_sonar(kind);
         for (int trial = 0; trial < 6; ++trial) {
-            const double radius = 0.02 * std::pow(100.0, unit(random));
-            const double range = radius + 5.0 + 9.0 * unit(random);
+            const double radius = 0.02 * std::pow(100.0, random.between(0.0, 1.0));
+            const double range = radius + random.between(5.0, 14.0);
             // Near the axis of the beam, where the pattern bends little.
             const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
             const double side = kind == SonarKind::sidescan ? radians(60.0) : 0.0;
-            const double azimuth = side + 0.004 * (unit(random) - 0.5);
+            const double azimuth = side + random.between(-0.002, 0.002);
             const Eigen::Vector3d at =
                 T_world_sensor.translation +
-                T_world_sensor.rotation *
-                    Eigen::Vector3d(range * std::cos(azimuth), range * std::sin(azimuth), 0.0);
+                T_world_sensor.rotation * (range * direction_of(azimuth, 0.0));
             const int sides[] = {16, 32, 96};
             const BallScene ball(at, radius, sides[trial % 3]);
             const double expected = energy_of_points(sonar, ball);
             for (const EngineKind type :
                  {EngineKind::rays, EngineKind::strips, EngineKind::automatic}) {
-                const auto engine = make_engine(ball.scene, {.type = type, .octree = {}});
+                const auto engine = engine_of(ball.scene, type);
                 const double off_db = db_of_power(energy_by(sonar, ball.scene, *engine) / expected);
                 CAPTURE_ALL(static_cast<int>(kind), static_cast<int>(type), radius, range,
                             sides[trial % 3]);
@@ -81,8 +80,7 @@ TEST_CASE("targets: with speckle a small highlight is steady, and energies are r
         constexpr int draws = 40;
         for (std::uint32_t seed = 1; seed <= draws; ++seed) {
             const auto energy = [&](const BallScene& ball) {
-                const auto engine =
-                    make_engine(ball.scene, {.type = EngineKind::rays, .octree = {}});
+                const auto engine = engine_of(ball.scene, EngineKind::rays);
                 return energy_by(sonar, ball.scene, *engine, {}, {.seed = seed, .ping = 0},
                                  {.multipath = false, .random = 1});
             };
@@ -118,13 +116,12 @@ TEST_CASE("targets: a wall hides the share of a rough sphere that lies behind it
     BallScene open({10.0, 0.0, 0.0}, 0.2, 24);
     open.scene.materials[0].slope_rms_deg = 0.0;
     const double whole = energy_by_rays(sonar, open.scene);
-    std::mt19937 random(27);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    Uniform random(27);
     double squares = 0.0;
     constexpr int draws = 24;
     for (int draw = 0; draw < draws; ++draw) {
-        const double edge = 0.5 * uniform(random);
-        const double turn = pi * uniform(random);
+        const double edge = random.between(-0.5, 0.5);
+        const double turn = random.between(-pi, pi);
         const BallScene hidden = behind_wall(open, 5.0, 0.5 * edge * 0.2, turn);
         const double expected = 0.5 + 0.25 * (3.0 * edge - edge * edge * edge);
         const double off = db_of_power(energy_by_rays(sonar, hidden.scene) / whole / expected);
@@ -150,7 +147,7 @@ TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they
 
     Scene moving = metal_scene();
     moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
-    const auto engine = make_engine(moving, {.type = EngineKind::rays, .octree = {}});
+    const auto engine = engine_of(moving, EngineKind::rays);
     const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
     CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) == approx(expected).epsilon(0.01));
 

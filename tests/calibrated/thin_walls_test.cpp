@@ -15,9 +15,9 @@ const Water water;
 /// A wall of drawn material without an echo of its own.
 Material drawn_wall(Draws& draws) {
     Material wall{.name = "wall", .lambert_db = -300.0, .slope_rms_deg = 0.0};
-    wall.density_kg_m3 = static_cast<double>(draws.between(1000.0F, 2000.0F));
-    wall.sound_speed_m_s = static_cast<double>(draws.between(1500.0F, 2500.0F));
-    wall.wall_mm = static_cast<double>(draws.scale(0.05F, 5.0F));
+    wall.density_kg_m3 = draws.between(1000.0F, 2000.0F);
+    wall.sound_speed_m_s = draws.between(1500.0F, 2500.0F);
+    wall.wall_mm = draws.scale(0.05F, 5.0F);
     return wall;
 }
 
@@ -71,7 +71,7 @@ struct WallScene {
     std::unique_ptr<VisibilityEngine> prepared(Sonar& sonar, EngineKind type) const {
         prepare_for(scene, sonar);
         find_targets({&sonar, 1}, scene);
-        return make_engine(scene, {.type = type, .octree = {}});
+        return engine_of(scene, type);
     }
 
     double energy(Sonar sonar, EngineKind type) const {
@@ -96,7 +96,7 @@ TEST_CASE("thin walls: transmission is that of the waves in the wall") {
     Draws draws(1);
     for (int n = 0; n < 100; ++n) {
         const Material wall = drawn_wall(draws);
-        const double hz = static_cast<double>(draws.scale(1e4F, 3e6F));
+        const double hz = draws.scale(1e4F, 3e6F);
         const double z = wall.density_kg_m3 * wall.sound_speed_m_s;
         const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
         const double r = (z - z_w) / (z + z_w);

@@ -83,18 +83,13 @@ TEST_CASE("water: the level in a side-scan sonar's far field") {
     const CalibratedModel model = calibrated_model(config, scattering_water(), view, {});
     const LineArray along = line_array(radians(2.5), config.beam.side_lobe_db);
     const double across = line_array(radians(50.0), 0.0).wavelengths;
-    double psi = 0.0;
-    constexpr int steps = 1000;
-    for (int k = 0; k < steps; ++k) {
-        // Off the axis of the side, from straight down on, within the view.
-        const double azimuth = radians(85.0) * (k + 0.5) / steps;
-        const double other = azimuth - radians(70.0);
-        const double step = radians(85.0) / steps;
-        psi += sinc4(across * std::sin(other)) * step;
-        if (std::cos(azimuth + radians(70.0)) > 0.0)
-            psi += sinc4(across * std::sin(azimuth + radians(70.0))) * step;
-    }
-    psi *= 2.0 / 3.0 / along.wavelengths;
+    // Off the axis of either side, from straight down on, within the view.
+    const double psi =
+        2.0 / 3.0 / along.wavelengths * integral(0.0, radians(85.0), 1000, [&](double azimuth) {
+            const double other = azimuth + radians(70.0);
+            return sinc4(across * std::sin(azimuth - radians(70.0))) +
+                   (std::cos(other) > 0.0 ? sinc4(across * std::sin(other)) : 0.0);
+        });
     const auto far = [&](int, double range_m) { return range_m > 15.0 ? psi : 0.0; };
     CHECK(greatest_error_db(model, view, far) < 0.15);
 }
@@ -132,7 +127,7 @@ TEST_CASE("water: its speckle is exponential in power, new in every ping, keyed 
 // The sonar is 3 m below the surface and looks straight down: the layer from 8 to 11 m of depth
 // lies between 5 and 8 m of range, but for the edge of a 7 degree beam, 0.02 m.
 TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
-    SonarConfig config = calibrated(kind_of(SonarKind::echosounder).keys.defaults, 2e5);
+    SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 2e5);
     config.opening_deg = 40.0;
     set_range(config, 2.0, 22.0, 200);
     config.instrument = instrument_of(Aperture::piston, 7.0);
@@ -164,7 +159,7 @@ TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
 
 // A wall 8 m ahead fills the view, whose corners see it at 8 / cos(45) / cos(15) = 11.7 m.
 TEST_CASE("water: a wall ends it in every beam, with every engine") {
-    SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 2e5);
     config.azimuth_deg = 90.0;
     config.elevation_deg = 30.0;
     config.azimuth_bins = 48;
@@ -172,10 +167,7 @@ TEST_CASE("water: a wall ends it in every beam, with every engine") {
     config.instrument = instrument_of(Aperture::line, 2.0);
     const Sonar full = make_sonar(config, {}, scattering_water());
     const Sonar empty = make_sonar(config, {}, {});
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_quad(scene, {8.0F, -20.0F, -10.0F}, {8.0F, 20.0F, -10.0F}, {8.0F, 20.0F, 10.0F},
-             {8.0F, -20.0F, 10.0F}, rock);
+    const Scene scene = rectangle_scene({8, -20, -10}, {8, 20, 10}, 0.4F);
     for (const EngineKind engine : {EngineKind::strips, EngineKind::rays}) {
         const std::vector<float> wall = expected_image(empty, scene, engine);
         const std::vector<float> both = expected_image(full, scene, engine);

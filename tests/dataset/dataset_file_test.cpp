@@ -6,7 +6,6 @@
 #include "run/job/dataset_folders.h"
 #include "support/small_mission.h"
 
-
 using Json = nlohmann::ordered_json;
 
 namespace {

@@ -45,9 +45,8 @@ TEST_CASE("waypoints: constant speed along straight legs, on which the attitude 
     CHECK((position(poses[20]) - Vector3d(3, 4, -5)).norm() < 1e-14);
     CHECK(heading(poses[5]) == approx(45));
     CHECK(heading(poses[20]) == approx(90));
-    for (std::size_t k = 1; k < poses.size(); ++k) {
+    for (std::size_t k = 1; k < poses.size(); ++k)
         CHECK((position(poses[k]) - position(poses[k - 1])).norm() == approx(0.5).epsilon(1e-12));
-    }
 }
 
 TEST_CASE("waypoints: a leg without length, and more poses than memory holds") {
@@ -96,8 +95,7 @@ TEST_CASE("lawnmower: without turns only the lines are left, at their times") {
         while (all[k].t_s < pose.t_s)
             ++k;
         CHECK(all[k].T_world_vehicle.translation == pose.T_world_vehicle.translation);
-        const double off = std::remainder(heading(pose), 180.0);
-        CHECK(std::abs(off) < 1e-9);
+        CHECK(std::abs(std::remainder(heading(pose), 180.0)) < 1e-9);
     }
 }
 
@@ -141,10 +139,8 @@ TEST_CASE("lawnmower: whatever the heading, swaths of the line spacing cover the
         }
         CHECK(holes == 0);
         // Steps have the same speed. A pose that skips a corner comes a little nearer.
-        for (std::size_t k = 1; k < poses.size(); ++k) {
-            const double step = (position(poses[k]) - position(poses[k - 1])).norm();
-            REQUIRE(step < 0.05 + 1e-9);
-        }
+        for (std::size_t k = 1; k < poses.size(); ++k)
+            REQUIRE((position(poses[k]) - position(poses[k - 1])).norm() < 0.05 + 1e-9);
     }
 }
 
@@ -158,8 +154,8 @@ TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
     // In four strips of d / 4 the outer lines have d / 2, the inner ones d; two of the steps
     // shift by d / 4, too.
     plan.line_spacing_m = diagonal / 4.0;
+    const double step = plan.line_spacing_m;
     poses = lawnmower(plan);
-    const double step = diagonal / 4.0;
     const double expected = 2 * (diagonal / 2) + 2 * diagonal + 2 * std::hypot(step, step) + step;
     CHECK(poses.back().t_s == approx(expected).epsilon(1e-3));
 }

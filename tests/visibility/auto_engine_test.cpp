@@ -22,12 +22,11 @@ bool same(const Samples& a, const Samples& b) {
 TEST_CASE("auto takes strips; multipath starts from rays") {
     const Scene scene = tank();
     const View view = auto_view();
-    Pose pose;
-    pose.translation = {0.0, 0.0, 1.5};
+    const Pose pose{.translation = {0.0, 0.0, 1.5}};
     const Samples by_strips = visible(scene, view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
     for (const EngineKind type : {EngineKind::automatic, EngineKind::strips}) {
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const auto engine = engine_of(scene, type);
         CHECK(same(engine->visible_surface(view, pose), by_strips));
         CHECK(same(engine->by_rays().visible_surface(view, pose), by_rays));
     }
@@ -39,16 +38,12 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     const Caster caster(scene);
     View view = auto_view(0.12);
     view.beams = 16;
-    Pose pose;
-    pose.translation = {-4.0, 0.0, 2.0};
-    pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
-    const Samples visible = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
-                                ->visible_surface(view, pose);
+    const Pose pose = pitched(25.0, {-4.0, 0.0, 2.0});
+    const Samples visible = engine_of(scene, EngineKind::automatic)->visible_surface(view, pose);
     CHECK(same(visible, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 
-TEST_CASE(
-    "engine: the octree refuses copies and bodies, it and the strips profiles of sound speed") {
+TEST_CASE("engine: what the octree and the strips refuse of copies, bodies and bent sound") {
     const Scene plain = tank();
     Scene copies = plain;
     copies.copies.push_back({});
@@ -67,7 +62,7 @@ TEST_CASE(
             return unsupported({.type = type, .octree = {}}, *scene.first);
         };
         for (const EngineKind type : {EngineKind::automatic, EngineKind::rays})
-            CHECK(refusal(type) == "");
+            CHECK(refusal(type).empty());
         CHECK(refusal(EngineKind::strips).empty() == (scene.first != &bent));
         CHECK(refusal(EngineKind::octree).find(scene.second) != std::string::npos);
         CHECK(refusal(EngineKind::octree).empty() == scene.second.empty());

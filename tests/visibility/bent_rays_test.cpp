@@ -43,14 +43,14 @@ View bent_view() {
     return {radians(60.0), radians(30.0), 1.0, 300.0, 1500, 60, 0.02};
 }
 
-const Pose bent_pose{rotation_from_rpy(0.0, radians(25.0), 0.0), {0.0, 0.0, 0.0}};
+const Pose bent_pose = pitched(25.0);
 
 }  // namespace
 
 TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
     // The apparent range is 1480 m/s times the time; the true incidence has the cosine -sin b.
     const Scene scene = floor_under(bent_gradient);
-    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const auto engine = engine_of(scene, EngineKind::rays);
     const View view = bent_view();
     const Samples samples = engine->visible_surface(view, bent_pose);
     REQUIRE(samples.items.size() > 1000);
@@ -75,10 +75,7 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
         for (int j = 0; j < n; ++j) {
             const double azimuth = ((i + 0.5) / n - 0.5) * view.azimuth_rad;
             const double elevation = ((j + 0.5) / n - 0.5) * view.elevation_rad;
-            const Eigen::Vector3d d =
-                bent_pose.rotation * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                                     std::cos(elevation) * std::sin(azimuth),
-                                                     std::sin(elevation));
+            const Eigen::Vector3d d = bent_pose.rotation * direction_of(azimuth, elevation);
             const Arc arc(std::asin(d.z()));
             true_area += arc.distance_m() * std::fabs(arc.slope()) / std::cos(arc.a) *
                          std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
@@ -89,10 +86,10 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
 
 TEST_CASE("bent rays: without a gradient they are straight, and ranges are times") {
     Scene scene = floor_under(0.0);
-    const auto bent = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const auto bent = engine_of(scene, EngineKind::rays);
     Scene still = scene;
     still.sound_profile = nullptr;
-    const auto straight = make_engine(still, {.type = EngineKind::rays, .octree = {}});
+    const auto straight = engine_of(still, EngineKind::rays);
     View view = bent_view();
     const Samples with = bent->visible_surface(view, bent_pose);
     view.range_max_m *= 1500.0 / 1480.0;
@@ -112,10 +109,9 @@ TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line")
     // passes 0.25 m above the line to it, and over a sill that is 0.1 m above the line.
     for (const double gradient : {bent_gradient, -bent_gradient}) {
         Scene scene = floor_under(gradient);
-        const std::uint32_t material = add_material(scene, 0.5F);
-        add_quad(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
-                 {50.0F, -5.0F, -19.9F}, material);
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        add_rectangle(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
+                      add_material(scene, 0.5F));
+        const auto engine = engine_of(scene, EngineKind::rays);
         const Samples samples = engine->visible_surface(bent_view(), bent_pose);
         bool is_visible = false;
         for (const Sample& sample : samples.items) {
@@ -132,7 +128,7 @@ TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line")
 
 TEST_CASE("bent rays: a sight line goes on behind what it met") {
     const Scene scene = floor_under(bent_gradient);
-    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+    const auto engine = engine_of(scene, EngineKind::rays);
     const Eigen::Vector3f direction = Eigen::Vector3f::UnitX();
     Ray ray{Eigen::Vector3f::Zero(), direction};
     Intersection first{};

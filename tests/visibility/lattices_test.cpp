@@ -46,7 +46,7 @@ TEST_CASE("lattices: posts narrower than a column are seen") {
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
     // A net below an echosounder. The mean of two triangles without area was no number.
     const Lattice lattice = draw_lattice(14253);
-    const auto engine = make_engine(lattice.scene, {.type = EngineKind::strips, .octree = {}});
+    const auto engine = engine_of(lattice.scene, EngineKind::strips);
     const View view = make_sonar(lattice.sonar, {0.1}).settings.view;
     for (const Sample& sample : engine->visible_surface(view, Pose{}).items)
         CHECK(sample.position.allFinite());

@@ -2,8 +2,7 @@
 #include "support/test.h"
 
 TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
-    Scene scene = empty_scene();
-    add_quad(scene, {4, -1, -1}, {4, 1, -1}, {4, 1, 1}, {4, -1, 1}, add_material(scene, 0.5F));
+    const Scene scene = rectangle_scene({4, -1, -1}, {4, 1, 1}, 0.5F);
     const View view{radians(60.0), radians(60.0), 0.5, 8.0, 100, 60, 0.03};
     for (const double leaf_m : {0.1, 0.05}) {
         const Samples samples = make_octree_engine(scene, {leaf_m})->visible_surface(view, Pose{});
@@ -21,13 +20,13 @@ TEST_CASE("octree: the first cluster of leaves hides what is more than four leav
     Scene scene = empty_scene();
     const auto steel = add_material(scene, 0.9F);
     const auto wall = add_material(scene, 0.5F);
-    add_quad(scene, {3, -0.6F, -0.6F}, {3, 0.6F, -0.6F}, {3, 0.6F, 0.6F}, {3, -0.6F, 0.6F}, steel);
+    add_rectangle(scene, {3, -0.6F, -0.6F}, {3, 0.6F, 0.6F}, steel);
     // At the plate a pixel is at least as large as a leaf, so that none is empty.
     const View view{radians(60.0), radians(60.0), 0.5, 5.0, 100, 60, 0.03};
     for (const float behind : {0.12F, 1.0F}) {
         Scene both = scene;
         const float x = 3.0F + behind;
-        add_quad(both, {x, -2, -2}, {x, 2, -2}, {x, 2, 2}, {x, -2, 2}, wall);
+        add_rectangle(both, {x, -2, -2}, {x, 2, 2}, wall);
         int in_shadow = 0;
         for (const Sample& sample :
              make_octree_engine(both, {0.05})->visible_surface(view, Pose{}).items) {

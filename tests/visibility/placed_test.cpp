@@ -28,15 +28,13 @@ Scene spheres(std::span<const Eigen::Affine3d> T_world_sphere, const Eigen::Vect
 }
 
 Eigen::Affine3d placed(const Eigen::Vector3d& position, double scale, double turn) {
-    Eigen::Affine3d T = Eigen::Affine3d::Identity();
-    T.translation() = position;
-    T.linear() = scale * rotation_from_rpy(turn, 0.3, -turn).toRotationMatrix();
-    return T;
+    return Eigen::Translation3d(position) * rotation_from_rpy(turn, 0.3, -turn) *
+           Eigen::Scaling(scale);
 }
 
 /// The first surface that a ray along x meets.
 Intersection met_along_x(const VisibilityEngine& engine, const Eigen::Vector3d& from) {
-    const Pose sonar{Eigen::Quaterniond::Identity(), from};
+    const Pose sonar{.translation = from};
     const Ray ray{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX()};
     Intersection hit{};
     engine.intersect(sonar, {&ray, 1}, {&hit, 1});
@@ -91,7 +89,7 @@ TEST_CASE("moving: a sphere that flies past is met where it is, at every moment"
     }
     // A ray meets nothing before the body is placed, nor next to it.
     CHECK(std::isinf(met_along_x(*engine, {0, 0, 0}).distance_m));
-    const Pose beside{Eigen::Quaterniond::Identity(), {5.0, 1.1, 0.0}};
+    const Pose beside{.translation = {5.0, 1.1, 0.0}};
     CHECK(std::isinf(met_along_x(*engine->at({&beside, 1}), {0, 0, 0}).distance_m));
 }
 
@@ -105,7 +103,7 @@ TEST_CASE("copies: next to a body that moves both are met") {
     scene.instance_classes.emplace_back("");
     scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
     const auto engine = make_rays_engine(scene);
-    const Pose at{Eigen::Quaterniond::Identity(), {3.0, 4.0, 0.0}};
+    const Pose at{.translation = {3.0, 4.0, 0.0}};
     const auto now = engine->at({&at, 1});
     for (const double y : {0.0, 4.0}) {
         const Intersection before = met_along_x(*engine, {0.0, y, 0.0});
@@ -126,7 +124,7 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
     const View view{radians(70.0), radians(40.0), 0.2, 15.0, 128, 48, 0.03};
     for (int trial = 0; trial < 4; ++trial) {
         Scene own = empty_scene(origin);
-        add_quad(own, {12, -9, -9}, {12, 9, -9}, {12, 9, 9}, {12, -9, 9}, add_material(own, 1.0F));
+        add_rectangle(own, {12, -9, -9}, {12, 9, 9}, add_material(own, 1.0F));
         Scene placed_scene = own;
         std::vector<Pose> poses;
         for (int k = 0; k < 6; ++k) {
@@ -138,8 +136,7 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
             const Eigen::Affine3d T = placed(
                 origin + Eigen::Vector3d(6.0, 0.0, 0.0) + 3.0 * draws.in_ball().cast<double>(),
                 scale, 0.7 * k);
-            Eigen::Affine3d T_local = T;
-            T_local.translation() -= origin;
+            const Eigen::Affine3d T_local = Eigen::Translation3d(-origin) * T;
             const auto first = static_cast<std::uint32_t>(own.vertices.size());
             for (const Eigen::Vector3f& vertex : shape.vertices)
                 own.vertices.emplace_back((T_local * vertex.cast<double>()).cast<float>());
@@ -175,9 +172,9 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
             }
             return out;
         };
-        const EngineSettings strips{.type = EngineKind::automatic, .octree = {}};
-        const Eigen::ArrayXXd expected = sums(*make_engine(own, strips));
-        const Eigen::ArrayXXd found = sums(*make_engine(placed_scene, strips)->at(poses));
+        const Eigen::ArrayXXd expected = sums(*engine_of(own, EngineKind::automatic));
+        const Eigen::ArrayXXd found =
+            sums(*engine_of(placed_scene, EngineKind::automatic)->at(poses));
         CHECK((found - expected).abs().sum() < 1e-3 * expected.abs().sum());
         CHECK((expected.col(4 * 6 + 3) > 0.0).any());
     }

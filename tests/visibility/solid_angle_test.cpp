@@ -46,8 +46,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         for (const EngineKind type : {EngineKind::rays, EngineKind::strips}) {
             const View view = view_of(shape);
-            const Samples samples = make_engine(scene, {.type = type, .octree = {}})
-                                        ->visible_surface(view, T_world_sensor);
+            const Samples samples = engine_of(scene, type)->visible_surface(view, T_world_sensor);
             const double share = filled_sr(samples) / solid_angle(view);
             CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), share);
             CHECK(std::fabs(share - 1.0) < 0.005);

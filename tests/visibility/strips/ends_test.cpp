@@ -36,8 +36,7 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
         const float share = k == 0 ? 0.5F : draws.between(0.05F, 0.95F);
         CAPTURE(share);
         const double azimuth = view.azimuth_rad * (0.5 - static_cast<double>(share));
-        const SinCos at = sincos(azimuth);
-        const Eigen::Vector3f along(static_cast<float>(at.cos), static_cast<float>(at.sin), 0.0F);
+        const Eigen::Vector3f along = direction_of(azimuth, 0.0).cast<float>();
         const Eigen::Vector3f left(-along.y(), along.x(), 0.0F);
         Scene scene = empty_scene();
         const std::uint32_t hard = add_material(scene, 0.9F);
@@ -47,11 +46,7 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
         add_quad(scene, near, far, far + 30.0F * left, near + 30.0F * left, hard);
         add_quad(scene, near - 30.0F * left, far - 30.0F * left, far, near, soft);
         // In every other scene a wall stands beyond the floor.
-        if (k % 2 == 1) {
-            const std::uint32_t wall = add_material(scene, 0.5F);
-            add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F}, {11.0F, 9.0F, 9.0F},
-                     {11.0F, -9.0F, 9.0F}, wall);
-        }
+        if (k % 2 == 1) add_rectangle(scene, {11, -9, -3}, {11, 9, 9}, add_material(scene, 0.5F));
         double hard_m2 = 0.0;
         double floor_m2 = 0.0;
         const Samples samples = visible(scene, view, Pose{});

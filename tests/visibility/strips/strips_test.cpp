@@ -2,6 +2,7 @@
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/lattices.h"
 #include "visibility/strips/fixtures.h"
 
@@ -26,10 +27,7 @@ View cone_of_strips() {
 
 /// The wall x = `x`, 40 m across, of n x n x 2 triangles.
 Scene wall_ahead(float x, int n = 1) {
-    Scene scene = empty_scene();
-    add_quad(scene, {x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20},
-             add_material(scene, 0.5F), n);
-    return scene;
+    return rectangle_scene({x, -20, -20}, {x, 20, 20}, 0.5F, n);
 }
 
 /// The visible area of the wall x = d: |y| <= Y = d tan(phi) and |z| <= tan(theta) sqrt(d^2 + y^2).
@@ -59,23 +57,22 @@ TEST_CASE("strips: a wall seen face on has its area, whole or in many triangles"
 TEST_CASE("strips: two large triangles fill the range") {
     // A plane at the distance d has the disc of pi (R^2 - d^2) within the range R. Its corners are
     // out of range, and so are the ends of most columns. Samples end two bins later.
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Uniform random(3);
     View view = fan_view();
     view.azimuth_rad = radians(130.0);
     view.elevation_rad = radians(150.0);
     const double R = view.range_max_m + 2.0 * view.bin_m();
     for (int trial = 0; trial < 10; ++trial) {
-        const double d = (0.6 + 0.35 * unit(random)) * view.range_max_m;
+        const double d = random.between(0.6, 0.95) * view.range_max_m;
         CAPTURE(d);
         Scene scene = wall_ahead(0.0F);
-        const Eigen::Matrix3d turn =
-            (Eigen::AngleAxisd(radians(20.0 * unit(random) - 10.0), Eigen::Vector3d::UnitY()) *
-             Eigen::AngleAxisd(radians(20.0 * unit(random) - 10.0), Eigen::Vector3d::UnitZ()))
-                .toRotationMatrix();
-        for (Eigen::Vector3f& v : scene.vertices)
-            v = (turn * (v.cast<double>() * view.range_max_m + d * Eigen::Vector3d::UnitX()))
-                    .cast<float>();
+        const double pitch = radians(random.between(-10.0, 10.0));
+        const double yaw = radians(random.between(-10.0, 10.0));
+        for (Eigen::Vector3f& v : scene.vertices) {
+            const Eigen::Vector3d ahead =
+                v.cast<double>() * view.range_max_m + d * Eigen::Vector3d::UnitX();
+            v = (rotation_from_rpy(0.0, pitch, yaw) * ahead).cast<float>();
+        }
         const double area = std::numbers::pi * (R * R - d * d);
         CHECK(area_of(visible(scene, view)) == approx(area).epsilon(5e-3));
     }
@@ -131,21 +128,14 @@ TEST_CASE("strips: full turns and steep views see all of a sphere around the son
 
 TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
     // The ground 4 m below: azimuth is from nadir outward, so y = 4 tan(azimuth), and a strip of
-    // the elevation e has the width 2 r tan(e / 2). Half of the integral of r dy is that of one
-    // side.
-    Scene scene = empty_scene();
-    add_quad(scene, {4, -30, -30}, {4, 30, -30}, {4, 30, 30}, {4, -30, 30},
-             add_material(scene, 0.5F), 9);
+    // the elevation e has the width 2 r tan(e / 2), as on a wall. One side has half of it.
+    const Scene scene = rectangle_scene({4, -30, -30}, {4, 30, 30}, 0.5F, 9);
     const View view = sides_of_strips();
-    const double y = 4.0 * std::tan(radians(60.0));
-    const double expected = 2.0 * std::tan(0.5 * view.elevation_rad) *
-                            (y * std::hypot(4.0, y) + 16.0 * std::asinh(y / 4.0)) / 2.0;
     const Samples samples = visible(scene, view);
     for (const int side : {0, 1}) {
-        const double area = area_of(samples.beam(side));
         for (const Sample& sample : samples.beam(side))
             CHECK((sample.position.y() > 0.0F) == (side == 1));
-        CHECK(area == approx(expected).epsilon(0.02));
+        CHECK(area_of(samples.beam(side)) == approx(0.5 * wall_area(4.0, view)).epsilon(0.02));
     }
 }
 
@@ -185,7 +175,7 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
         const std::uint32_t sand = add_material(scene, 0.2F);
         const std::uint32_t steel = add_material(scene, 0.9F);
         const auto add = [&](float x0, float x1, float y, std::uint32_t material) {
-            add_quad(scene, {x0, -y, -2}, {x1, -y, -2}, {x1, y, -2}, {x0, y, -2}, material);
+            add_rectangle(scene, {x0, -y, -2}, {x1, y, -2}, material);
         };
         if (plate_first) add(5, 7, 1, steel);
         add(1, 40, 30, sand);
@@ -196,7 +186,7 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
                 area += sample.material == steel ? static_cast<double>(sample.area_m2) : 0.0;
             return area;
         };
-        const Pose pose{rotation_from_rpy(0.0, radians(15.0), 0.0), {0, 0, 0}};
+        const Pose pose = pitched(15.0);
         const double by_strips = steel_m2(visible(scene, fan_view(), pose));
         const double by_rays = steel_m2(make_rays_engine(scene)->visible_surface(fan_view(), pose));
         CHECK(by_strips == approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
@@ -206,8 +196,7 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
 
 TEST_CASE("strips: two wide beams have the surface of rods that stand in each of them") {
     // Beams of 150 degrees. The reference has 64 beams in place of each.
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> any(0.0F, 1.0F);
+    Uniform random(5);
     View view = fan_view();
     view.beams = 2;
     view.azimuth_rad = radians(300.0);
@@ -218,8 +207,8 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
         Scene scene = empty_scene();
         const std::uint32_t rock = add_material(scene, 0.5F);
         for (int rod = 0; rod < 60; ++rod) {
-            const float turn = 6.2F * any(random) - 3.1F;
-            const float range = 3.0F + 6.0F * any(random);
+            const float turn = random.single(-3.1, 3.1);
+            const float range = random.single(3.0, 9.0);
             add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F, 0.6F,
                      rock, 6);
         }
@@ -244,7 +233,7 @@ TEST_CASE("strips: footprints tile the ground, and their areas are the surface's
         add_sphere(scene, {3.0F + 0.15F * at, 2.5F * std::sin(1.7F * at), -1.0F}, 0.1F + 0.01F * at,
                    rock, 24);
     }
-    add_quad(scene, {0, -9, -1}, {14, -9, -1}, {14, 9, -1}, {0, 9, -1}, rock, 80);
+    add_rectangle(scene, {0, -9, -1}, {14, 9, -1}, rock, 80);
     View view = fan_view();
     const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.1), {0.0, 0.0, 0.3}};
     const Samples usual = visible(scene, view, pose);

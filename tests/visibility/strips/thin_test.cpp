@@ -130,22 +130,20 @@ TEST_CASE("strips: a grazing tread with an oblique near edge has its area in the
     View view = fan_view();
     view.relative_l1 = 0.01;
     const auto bin = static_cast<float>(view.bin_m());
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> any(0.0F, 1.0F);
+    Uniform any(7);
     for (int k = 0; k < 20; ++k) {
         CAPTURE(k);
-        const int last_bin = 100 + static_cast<int>(40.0F * any(random));
-        const float d = (0.1F + 0.5F * any(random)) * bin;
+        const int last_bin = 100 + static_cast<int>(any.between(0.0, 40.0));
+        const float d = any.single(0.1, 0.6) * bin;
         const float far = 0.2F + static_cast<float>(last_bin) * bin + d;
-        const float slope = 1.0F + 2.0F * any(random);
-        const float h = 0.01F + 0.02F * any(random);
+        const float slope = any.single(1.0, 3.0);
+        const float h = any.single(0.01, 0.03);
         Scene scene = empty_scene();
         const std::uint32_t rock = add_material(scene, 0.5F);
         const float low = -0.01F;
         add_quad(scene, {far - 1.5F - 0.5F * slope, -0.5F, low}, {far, -0.5F, low},
                  {far, 0.5F, low}, {far - 1.5F + 0.5F * slope, 0.5F, low}, rock);
-        add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
-                 {far, -0.5F, low + h}, rock);
+        add_rectangle(scene, {far, -0.5F, low}, {far, 0.5F, low + h}, rock);
         const std::vector<float> image = mean_echoes(scene, view, visible(scene, view, Pose{}));
         for (const int beam : {31, 32}) {
             const double intensity = image[last_bin * view.beams + beam];
@@ -158,9 +156,8 @@ TEST_CASE("strips: a grazing tread with an oblique near edge has its area in the
 TEST_CASE("strips: a face that is seen nearly edge-on keeps its area") {
     // Faces of 2 cm by 2 m, 10 m away, at 0.006 and 0.02 degrees: smaller than cracks by rounding.
     for (const float depth_m : {0.001F, 0.004F}) {
-        Scene scene = empty_scene();
-        add_quad(scene, {10.0F, -1.0F, -depth_m}, {10.02F, -1.0F, -depth_m},
-                 {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m}, add_material(scene, 1.0F));
+        const Scene scene =
+            rectangle_scene({10.0F, -1.0F, -depth_m}, {10.02F, 1.0F, -depth_m}, 1.0F);
         CAPTURE(depth_m);
         CHECK(area_of(visible(scene, fan_view(), Pose{})) == approx(0.04).epsilon(0.02));
     }

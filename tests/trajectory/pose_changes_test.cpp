@@ -37,13 +37,9 @@ TEST_CASE("Heave has the variance and the autocorrelation of the spectrum" *
         variance += a * a / seeds;
         product += a * b / seeds;
     }
-    double correlation = 0.0;
-    constexpr int steps = 100000;
-    for (int k = 0; k < steps; ++k) {
-        const double share = (k + 0.5) / steps;
-        correlation +=
-            std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) / steps;
-    }
+    const double correlation = integral(0.0, 1.0, 100000, [](double share) {
+        return std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25));
+    });
     // Products of two normal numbers have a variance of at most 2 s^4.
     const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
     CHECK(std::fabs(variance - deviation * deviation) < four_errors);
@@ -66,5 +62,42 @@ TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
         CHECK(std::fabs(rpy.roll) > 1e-4);
         CHECK(rpy.pitch == approx(0.0));
         CHECK(rpy.yaw == approx(0.5 * pi));
+    }
+}
+
+TEST_CASE("Errors of single poses have their standard deviations, and no others move them") {
+    const Trajectory truth{{0.0, {.translation = {0.0, 5.0, -10.0}}},
+                           {10.0, {.translation = {10.0, 5.0, -10.0}}}};
+    // The quantities y, z, pitch and yaw, less the truth.
+    const auto errors_of = [&](const NavigationConfig& errors, std::uint32_t seed) {
+        const PhiloxKey key = stream_key(seed, 0, 0, stream_named("navigation"));
+        const TimedPose reported = reported_poses(truth, errors, key).back();
+        CHECK(reported.t_s == 10.0);
+        const Pose& pose = reported.T_world_vehicle;
+        const Rpy rpy = rpy_from_rotation(pose.rotation);
+        return Eigen::Array4d(pose.translation.y() - 5.0, pose.translation.z() + 10.0, rpy.pitch,
+                              rpy.yaw);
+    };
+    const NavigationConfig single[] = {{.position_m = 2.0},
+                                       {.depth_m = 0.1},
+                                       {.tilt_deg = degrees(0.01)},
+                                       {.heading_deg = degrees(0.02)},
+                                       {}};
+    for (int which = 0; which < 5; ++which) {
+        constexpr int draws = 2000;
+        Eigen::Array4d squares = Eigen::Array4d::Zero();
+        for (std::uint32_t seed = 0; seed < draws; ++seed)
+            squares += errors_of(single[which], seed).square() / draws;
+        const Eigen::Array4d expected(2.0, 0.1, 0.01, 0.02);
+        for (int k = 0; k < 4; ++k) {
+            CAPTURE_ALL(which, k);
+            // The deviation of 2000 draws has the relative error 1 / sqrt(2 n), 1.6 %; four of
+            // them are exceeded once in 16,000 runs.
+            if (k == which) {
+                CHECK(std::sqrt(squares[k]) == approx(expected[k]).epsilon(4.0 * 0.0158));
+            } else {
+                CHECK(std::sqrt(squares[k]) < 1e-12);
+            }
+        }
     }
 }
