@@ -1,10 +1,7 @@
 #include "simulate/lambert/lambert_model.h"
 #include "simulate/paper/dropouts.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/trace/wake.h"
-#include "simulate/visibility/rays/rays_engine.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 // Runs the files that the examples of docs/development.md add. check_examples.py compiles them
 // together with the lines that the examples change in lib.
@@ -19,7 +16,6 @@ TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     const auto engine = make_rays_engine(scene);
     const KindOfSonar kind = obstacle_kind();
     SonarConfig config = kind.keys.defaults;
-    config.name = "ahead";
     const Sonar sonar = make_sonar(kind, config, {});
     const Ping ping = render_ping(sonar, scene, *engine, {}, {});
     const std::vector<float> row = record_values(kind.record, config, ping.intensity, 0.0F);
@@ -28,11 +24,8 @@ TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     const auto occupied = [](float value) { return value > 0.0F; };
     const auto first = std::ranges::find_if(row, occupied) - row.begin();
     const auto count = std::ranges::count_if(row, occupied);
-    const auto bin_of = [&](double range) {
-        return static_cast<int>((range - config.range_min_m) / sonar.settings.view.bin_m());
-    };
-    CHECK(first == bin_of(7.03));
-    CHECK(first + count - 1 == bin_of(7.03 / std::cos(radians(7.5))));
+    CHECK(first == bin_at(sonar, 7.03));
+    CHECK(first + count - 1 == bin_at(sonar, 7.03 / std::cos(radians(7.5))));
     // The picture shows the brightest bin white.
     const StripFrame frame = kind.record.style.frame(config, 1);
     std::vector<Rgb> pixels(frame.width);
@@ -87,12 +80,10 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
     Scene scene = floor_scene(100.0F, 0.0F, static_cast<float>(R));
     const auto engine = make_rays_engine(scene);
     SonarConfig config = default_sonar(SonarKind::echosounder);
-    config.name = "sounder";
     Sonar sonar = make_sonar(config, {0.005});
     sonar.settings.model = std::make_shared<LambertModel>();
-    const Ping ping =
-        render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
-    const double energy = std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
+    const Ping ping = render_ping(sonar, scene, *engine, {.translation = {0, 0, H}}, {});
+    const double energy = total(ping.intensity);
     const double cosine = std::cos(radians(15.0));
     CHECK(energy == approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
 }

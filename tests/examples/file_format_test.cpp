@@ -35,9 +35,7 @@ TEST_CASE("example of a file format: the nearest echo of each beam") {
     mission.sensors[0].noise = {};
     mission.sensors[0].mount = {};
     Assembly assembly = small_assembly(mission, 1);
-    assembly.scene = empty_scene();
-    add_quad(assembly.scene, {5, -9, -9}, {5, 9, -9}, {5, 9, 9}, {5, -9, 9},
-             add_material(assembly.scene, 1.0F));
+    assembly.scene = rectangle_scene({5, -9, -9}, {5, 9, 9}, 1.0F);
     const Sonar& sonar = assembly.sonars[0];
     const auto engine = make_engine(assembly.scene, {});
     const TracedPing traced = trace(sonar, assembly.scene, *engine, Pose{}, 0);

@@ -47,7 +47,7 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     Scene scene = floor_scene(30.0F, -depth_m, 0.3F);
     const Sonar sonar = make_sonar(small_imaging(), {.relative_l1 = 0.01});
     const auto engine = make_engine(scene, {});
-    const Pose tilted{rotation_from_rpy(0.0, 0.5, 0.0), Eigen::Vector3d::Zero()};
+    const Pose tilted = pitched(degrees(0.5));
     const TracedPing traced = trace(sonar, scene, *engine, tilted, 0);
 
     const View& view = sonar.settings.view;
@@ -59,8 +59,7 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     int bins = 0;
     for (int i = 1; i + 1 < view.range_bins; ++i) {
         if (cosine[i - 1] == 0.0F || cosine[i] == 0.0F || cosine[i + 1] == 0.0F) continue;
-        const double middle_m = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        CHECK(cosine[i] == approx(depth_m / middle_m).epsilon(0.005));
+        CHECK(cosine[i] == approx(depth_m / bin_centre(sonar, i)).epsilon(0.005));
         ++bins;
     }
     CHECK(bins > 30);

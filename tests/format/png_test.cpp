@@ -3,36 +3,15 @@
 #include <OpenImageIO/imageio.h>
 
 #include "core/hash.h"
-#include "support/test.h"
+#include "support/images.h"
 
 namespace {
-
-constexpr OIIO::TypeDesc type_of(std::uint8_t) {
-    return OIIO::TypeDesc::UINT8;
-}
-constexpr OIIO::TypeDesc type_of(std::uint16_t) {
-    return OIIO::TypeDesc::UINT16;
-}
-
-/// The values of a PNG file, as OpenImageIO reads them; T is their type.
-template <class T>
-std::vector<T> read_back(const std::filesystem::path& path, int width, int height, int channels) {
-    const auto file = OIIO::ImageInput::open(path.string());
-    REQUIRE(file);
-    CHECK(file->spec().width == width);
-    CHECK(file->spec().height == height);
-    CHECK(file->spec().nchannels == channels);
-    CHECK(file->spec().format == type_of(T{}));
-    std::vector<T> values(static_cast<std::size_t>(width) * height * channels);
-    REQUIRE(file->read_image(0, 0, 0, channels, type_of(T{}), values.data()));
-    return values;
-}
 
 template <class T>
 std::vector<T> read_back(const std::string& bytes, int width, int height) {
     const TemporaryFolder folder;
     write_file(folder.path / "a.png", bytes);
-    return read_back<T>(folder.path / "a.png", width, height, 1);
+    return pixels_of<T>(folder.path / "a.png", width, height, 1);
 }
 
 /// Values of `bits` bits in runs of one to `longest` of the same value.
@@ -82,12 +61,12 @@ TEST_CASE("png: pictures and files that come row by row are read back") {
         for (std::size_t k = 0; k < values.size(); k += 3)
             pixels.push_back({values[k], values[k + 1], values[k + 2]});
         write_picture(folder.path / "a.png", pixels, width);
-        CHECK(read_back<std::uint8_t>(folder.path / "a.png", width, height, 3) == values);
+        CHECK(pixels_of<std::uint8_t>(folder.path / "a.png", width, height, 3) == values);
         ImageFile file(folder.path / "b.png", width, height, PixelKind::grey8);
         for (int y = 0; y < height; ++y)
             file.row(std::span(values).subspan(static_cast<std::size_t>(y) * width, width));
         file.finish();
-        const auto grey = read_back<std::uint8_t>(folder.path / "b.png", width, height, 1);
+        const auto grey = pixels_of<std::uint8_t>(folder.path / "b.png", width, height, 1);
         CHECK(std::equal(grey.begin(), grey.end(), values.begin()));
     }
 }
@@ -107,7 +86,7 @@ TEST_CASE("png: counts that would make codes of more than 15 bits") {
     ImageFile file(folder.path / "a.png", width, 1, PixelKind::grey8);
     file.row(bytes);
     file.finish();
-    CHECK(read_back<std::uint8_t>(folder.path / "a.png", width, 1, 1) == bytes);
+    CHECK(pixels_of<std::uint8_t>(folder.path / "a.png", width, 1, 1) == bytes);
 }
 
 TEST_CASE("png: what repeats takes a fraction of its size") {

@@ -5,6 +5,8 @@
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
+#include "support/images.h"
+
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 
@@ -13,24 +15,6 @@ Writer make_strip_writer(const WriterContext& context);
 }
 
 namespace fs = std::filesystem;
-
-namespace {
-
-template <class T>
-std::vector<T> pixels_of(const fs::path& path, int width, int height, int channels,
-                         OIIO::TypeDesc type) {
-    const auto in = OIIO::ImageInput::open(path.string());
-    REQUIRE(in);
-    CHECK(in->spec().width == width);
-    CHECK(in->spec().height == height);
-    CHECK(in->spec().nchannels == channels);
-    CHECK(in->spec().format == type);
-    std::vector<T> pixels(in->spec().image_pixels() * channels);
-    REQUIRE(in->read_image(0, 0, 0, channels, type, pixels.data()));
-    return pixels;
-}
-
-}  // namespace
 
 // The arrays of images: tests/golden, and cli/test_python.py without files.
 TEST_CASE("series: soundings are those of the pings, and metadata what the sonars measured") {
@@ -78,8 +62,7 @@ TEST_CASE("series: a map has the means of the soundings in its cells") {
     const int columns = map.at("columns");
     const int rows = map.at("rows");
     const double cell = map.at("cell_m");
-    const auto z =
-        pixels_of<float>(out / "mbes/bathymetry.tif", columns, rows, 1, OIIO::TypeDesc::FLOAT);
+    const auto z = pixels_of<float>(out / "mbes/bathymetry.tif", columns, rows, 1);
     std::vector<double> sum(z.size(), 0.0);
     std::vector<int> count(z.size(), 0);
     for (int k = 0; k < 280; ++k) {
@@ -105,7 +88,6 @@ TEST_CASE("series: a map has the means of the soundings in its cells") {
 TEST_CASE("series: more pings than a picture can be long are averaged") {
     const TemporaryFolder temporary;
     SonarConfig config = default_sonar(SonarKind::echosounder);
-    config.name = "sounder";
     config.range_bins = 4;
     Mission mission;
     mission.sensors = {config};
@@ -119,8 +101,7 @@ TEST_CASE("series: more pings than a picture can be long are averaged") {
     file.write(columns - 1, std::as_bytes(std::span(one)));
     make_strip_writer({mission, assembly, 0, columns}).write_products(file, temporary.path);
     constexpr int width = max_picture_rows / 2 + 2;
-    const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
-                                                 OIIO::TypeDesc::UINT16);
+    const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1);
     CHECK(pixels[0] == 32768);
     CHECK(pixels[1] == 0);
     CHECK(pixels[width - 1] == 65535);

@@ -4,14 +4,6 @@
 
 namespace {
 
-/// The objects of a scene, of which the first is a floor and background.
-SceneObjects objects_on_floor(const Scene& scene) {
-    SceneObjects objects = group_objects(scene, {});
-    objects.background.assign(objects.classes.size(), 0);
-    objects.background[0] = 1;
-    return objects;
-}
-
 /// The annotations of a scene on a floor.
 struct FoundObjects {
     Sonar sonar;
@@ -48,15 +40,9 @@ struct FoundObjects {
 /// Looks down at a floor at z = 0 from a height.
 SonarConfig wide_fan() {
     SonarConfig config = small_imaging();
-    config.elevation_deg = 60.0;
-    config.range_max_m = 14.0;
-    config.range_bins = 700;
+    set_range(config, config.range_min_m, 14.0, 700);
     config.azimuth_bins = 240;
     return config;
-}
-
-Pose looking_down(double height_m, double pitch_deg) {
-    return {rotation_from_rpy(0.0, radians(pitch_deg), 0.0), {0.0, 0.0, height_m}};
 }
 
 }  // namespace
@@ -65,10 +51,10 @@ TEST_CASE("annotations: the azimuth of an object astern, in a full turn") {
     for (const float y : {0.0F, 0.4F, -0.4F}) {
         CAPTURE(y);
         Scene scene = floor_scene(30.0F, 0.0F, 0.5F);
-        add_quad(scene, {-6, y - 1, 0}, {-6, y - 1, 2}, {-6, y + 1, 2}, {-6, y + 1, 0}, 0);
+        add_rectangle(scene, {-6, y - 1, 0}, {-6, y + 1, 2}, 0);
         SonarConfig config = wide_fan();
         config.azimuth_deg = 360.0;
-        const FoundObjects found(scene, config, looking_down(1.0, 0.0), {});
+        const FoundObjects found(scene, config, {.translation = {0.0, 0.0, 1.0}}, {});
         const double expected = std::atan2(static_cast<double>(y), -6.0);
         const double apart = *found.object(2).azimuth_rad - expected;
         CHECK(std::fabs(std::remainder(apart, 2.0 * pi)) < radians(1.5));
@@ -86,10 +72,10 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
         Scene scene = floor_scene(40.0F, 0.0F, 0.5F);
         const auto x = static_cast<float>(r);
         const auto top = static_cast<float>(h);
-        add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, 0);
+        add_rectangle(scene, {x, -0.3F, 0}, {x, 0.3F, top}, 0);
         // A wall and a box of the same front have the same shadow behind it.
         if (k % 2 == 1) add_box(scene, {x, -0.3F, 0}, {x + 0.2F, 0.3F, top}, 0);
-        const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
+        const FoundObjects found(scene, wide_fan(), pitched(25.0, {0.0, 0.0, sonar_m}),
                                  {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.5}}, true);
         const ObjectInPing& wall = found.object(2);
         const double end_m = std::hypot(r * sonar_m / (sonar_m - h), sonar_m);
@@ -151,7 +137,7 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
             add_sphere(scene, centre, radius, 0, 24);
             spheres.push_back({centre.cast<double>(), 1.0001 * radius});
         }
-        const FoundObjects found(scene, wide_fan(), looking_down(3.0, 25.0), spheres, true);
+        const FoundObjects found(scene, wide_fan(), pitched(25.0, {0.0, 0.0, 3.0}), spheres, true);
         // The box lets lines end where they leave the scene.
         const Eigen::AlignedBox3d surface(Eigen::Vector3d(-40, -40, -0.6),
                                           Eigen::Vector3d(40, 40, 1.1));

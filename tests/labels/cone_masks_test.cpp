@@ -23,7 +23,7 @@ Thing draw_thing(Uniform& draw) {
     const double elevation = radians(draw.between(-38.0, 38.0));
     const double azimuth = radians(draw.between(-40.0, 40.0));
     const double range = draw.between(3.0, 7.0);
-    out.pose = {rotation_from_rpy(0.0, tilt, 0.0), Eigen::Vector3d::Zero()};
+    out.pose = pitched(degrees(tilt));
     out.middle = range * direction_of(azimuth, elevation);
     const Eigen::Vector3f at = (out.pose.rotation * out.middle).cast<float>();
     const std::uint32_t m = add_material(out.scene, 0.4F);
@@ -134,38 +134,33 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const Thing thing = draw_thing(draw);
         const Sonar& sonar = sonars[static_cast<std::size_t>(n) % sonars.size()];
         const View& view = sonar.settings.view;
-        const auto engine = make_engine(thing.scene, {.type = EngineKind::strips, .octree = {}});
-        const TracedPing traced = trace(sonar, thing.scene, *engine, thing.pose, 0);
-        const SceneObjects objects = group_objects(thing.scene, {});
-        const PingLabels labels =
-            label_ping(traced, sonar.settings, thing.scene, objects, *engine, {.objects = true});
+        const Labelled found =
+            label(thing.scene, sonar, thing.pose, EngineKind::strips, {.objects = true});
         std::vector<bool> mask;
         std::vector<int> bins;
         for (int i = 0; i < view.range_bins; ++i) {
             for (int j = 0; j < view.beams; ++j) {
-                mask.push_back(labels.object[j * view.range_bins + i] > 0);
+                mask.push_back(found.labels.object[found.at(i, j)] > 0);
                 if (mask.back()) bins.push_back(i * view.beams + j);
             }
         }
         // A bin within 3 dB of the noise may count or not.
-        const std::vector<double> by_points = energies_of_points(traced, sonar);
+        const std::vector<double> by_points = energies_of_points(found.traced, sonar);
         const double min_energy = noise * *std::ranges::max_element(by_points);
         const Box loud = box_above(by_points, 2.0 * min_energy, view.beams);
         const Box faint = box_above(by_points, 0.5 * min_energy, view.beams);
         if (loud.isEmpty() || loud.sizes().minCoeff() < 20)
             continue;  // a bin more or less tells nothing
         ++measured;
-        const std::vector<double> by_labels = energies_of_labels(traced, sonar, thing.scene);
+        const std::vector<double> by_labels = energies_of_labels(found.traced, sonar, thing.scene);
         // Both have all of the energy, in another unit.
-        const double unit = std::accumulate(by_labels.begin(), by_labels.end(), 0.0) /
-                            std::accumulate(by_points.begin(), by_points.end(), 0.0);
+        const double unit = total(by_labels) / total(by_points);
         const Box box = box_above(by_labels, unit * min_energy, view.beams, mask);
         const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
         const double min_overlap = (1.0 - 1.0 / loud.sizes().x()) * (1.0 - 1.0 / loud.sizes().y());
         CHECK(o >= std::min(0.95, min_overlap));
-        std::vector<float> decibels =  // above the noise
-            form_image(traced, sonar.settings, thing.scene, {}, without_random_terms).intensity;
+        std::vector<float> decibels = found.clean.intensity;  // above the noise
         const double quiet = noise * *std::ranges::max_element(decibels);
         for (float& value : decibels)
             value = static_cast<float>(10.0 * std::log10(std::max(1.0, value / quiet)));

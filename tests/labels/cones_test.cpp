@@ -43,16 +43,13 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
                    static_cast<float>(draw.between(0.15, 0.4)), m, 48);
         Sonar with_targets = sonar;
         find_targets({&with_targets, 1}, thing.scene);
-        const auto engine = make_engine(thing.scene, {.type = EngineKind::strips, .octree = {}});
-        const SceneObjects objects = group_objects(thing.scene, {});
         const auto labels_of = [&](const Sonar& by) {
-            const TracedPing traced = trace(by, thing.scene, *engine, thing.pose, 0);
-            const bool has_pieces = std::ranges::any_of(
-                traced.samples.items,
-                [](const Sample& sample) { return sample.kind == SampleKind::target; });
+            const Labelled found =
+                label(thing.scene, by, thing.pose, EngineKind::strips, {.objects = true});
+            const bool has_pieces = std::ranges::count(found.traced.samples.items,
+                                                       SampleKind::target, &Sample::kind) > 0;
             CHECK(has_pieces == (&by == &with_targets));
-            return label_ping(traced, by.settings, thing.scene, objects, *engine,
-                              {.objects = true});
+            return found.labels;
         };
         const PingLabels by_engine = labels_of(sonar);
         const PingLabels by_pieces = labels_of(with_targets);
@@ -81,11 +78,8 @@ TEST_CASE("cone labels: objects alone have the bins and shadows that they have b
             add_box(scene, low, low + Eigen::Vector3f(size, 2.0F * size, size), 0);
         }
         const Sonar sonar = wide_fan(spacings[n % std::size(spacings)]);
-        const Pose pose{rotation_from_rpy(0.0, radians(draw.between(10.0, 40.0)), 0.0),
-                        Eigen::Vector3d::Zero()};
-        SceneObjects objects = group_objects(scene, {});
-        objects.background.assign(objects.classes.size(), 0);
-        objects.background[0] = 1;
+        const Pose pose = pitched(draw.between(10.0, 40.0));
+        const SceneObjects objects = objects_on_floor(scene);
         const auto engine = make_engine(scene, {});
         const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
         LabelRequest request{.objects = true, .annotations = true};
@@ -114,9 +108,7 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
          {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder, SonarKind::scanning}) {
         CAPTURE(static_cast<int>(kind));
         SonarConfig config = bare_sonar(default_sonar(kind), 3e5);
-        config.name = "x";
-        config.range_max_m = 12.0;
-        config.range_bins = 300;
+        set_range(config, config.range_min_m, 12.0, 300);
         config.multipath.method = MultipathMethod::exact;
         const bool looks_down = kind == SonarKind::sidescan || kind == SonarKind::echosounder;
         if (kind == SonarKind::imaging) config.elevation_deg = 60.0;
@@ -138,7 +130,7 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
             };
             add_quad(scene, at(0, -4), at(4, -4), at(4, 4), at(0, 4), m);
         }
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const auto engine = engine_of(scene, EngineKind::rays);
         const TracedPing traced = trace(sonar, scene, *engine, Pose{}, 0);
         const Sums labels = sums_of_labels(traced, sonar, scene);
         const Sums image = sums_of_images(traced, sonar, scene);
@@ -153,7 +145,7 @@ TEST_CASE("cone labels: the shadow of a large face has no holes and ends where i
     // A plate at x = 4 m, 1 m high, stands 2 m below the sonar and hides the floor up to x = 8 m. A
     // beam of the sine s sees the place x at r^2 (1 - s^2) = x^2 + 4.
     Scene scene = floor_scene(30.0F, -2.0F, 0.4F);
-    add_quad(scene, {4, -1, -2}, {4, 1, -2}, {4, 1, -1}, {4, -1, -1}, 0);
+    add_rectangle(scene, {4, -1, -2}, {4, 1, -1}, 0);
     for (const Spacing spacing : spacings) {
         const Sonar sonar = wide_fan(spacing);
         for (const EngineKind type : engine_types) {

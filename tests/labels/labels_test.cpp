@@ -28,8 +28,8 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     // The panel covers the azimuths up to atan(0.5 / 3) at 3 m; the wall stands at 6 m, |y| < 2.
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.5F);
-    add_quad(scene, {6, -2, -5}, {6, 2, -5}, {6, 2, 5}, {6, -2, 5}, m);
-    add_quad(scene, {3, -0.5F, -5}, {3, 0.5F, -5}, {3, 0.5F, 5}, {3, -0.5F, 5}, m);
+    add_rectangle(scene, {6, -2, -5}, {6, 2, 5}, m);
+    add_rectangle(scene, {3, -0.5F, -5}, {3, 0.5F, 5}, m);
     const Sonar sonar = noise_free(small_imaging());
     const double panel = std::atan2(0.5, 3.0);
     const double wall = std::atan2(2.0, 6.0);
@@ -75,8 +75,8 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
     Scene scene = empty_scene();
     const std::uint32_t strong = add_material(scene, 0.6F);
     const std::uint32_t weak = add_material(scene, 0.2F);
-    add_quad(scene, {5, -9, -9}, {5, 9, -9}, {5, 9, 0}, {5, -9, 0}, weak);
-    add_quad(scene, {5, -9, 0}, {5, 9, 0}, {5, 9, 9}, {5, -9, 9}, strong);
+    add_rectangle(scene, {5, -9, -9}, {5, 9, 0}, weak);
+    add_rectangle(scene, {5, -9, 0}, {5, 9, 9}, strong);
     const Sonar sonar = noise_free(small_imaging());
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
@@ -98,8 +98,7 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
     }
 }
 
-TEST_CASE(
-    "labels: occupied bins are those of the clean image, multipath bins those of its ghosts") {
+TEST_CASE("labels: occupied bins are those of the clean image, multipath bins its ghosts") {
     const Scene scene = tank();
     SonarConfig config = small_imaging();
     config.multipath.method = MultipathMethod::cluster;
@@ -161,8 +160,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
             for (std::size_t bin = 0; bin < out.labels.size(); ++bin) {
                 const double* const echo = &echoes[bin * count];
                 const double* const loudest = std::max_element(echo, echo + count);
-                const double total = std::accumulate(echo, echo + count, 0.0);
-                if (total == 0.0 || out.labels.object[bin] == 0) continue;
+                if (total(std::span(echo, count)) == 0.0 || out.labels.object[bin] == 0) continue;
                 ++occupied;
                 const auto stated = static_cast<std::size_t>(out.labels.object[bin]) - 1;
                 same += loudest == echo + stated;

@@ -50,8 +50,7 @@ Scene rippled_floor(Uniform& draw) {
 Sonar sonar_above_floor(double relative_l1) {
     SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
     config.name = "sss";
-    config.range_max_m = 12.0;
-    config.range_bins = 240;
+    set_range(config, config.range_min_m, 12.0, 240);
     config.elevation_deg = 8.0;
     config.instrument.beam.width_deg = 1.5;
     Sonar sonar = make_sonar(config, {relative_l1});
@@ -61,15 +60,12 @@ Sonar sonar_above_floor(double relative_l1) {
 
 /// A floor 3 m below this sonar.
 Scene floor_below() {
-    Scene scene = empty_scene();
-    add_quad(scene, {3, -30, -30}, {3, 30, -30}, {3, 30, 30}, {3, -30, 30},
-             add_material(scene, 0.4F));
-    return scene;
+    return rectangle_scene({3, -30, -30}, {3, 30, 30}, 0.4F);
 }
 
 /// A plate on this floor, 6 m to port and 1 m high, `half` to either side of z.
 void add_plate(Scene& scene, float z, float half) {
-    add_quad(scene, {2, 6, z - half}, {3, 6, z - half}, {3, 6, z + half}, {2, 6, z + half}, 0);
+    add_rectangle(scene, {2, 6, z - half}, {3, 6, z + half}, 0);
 }
 
 }  // namespace
@@ -117,8 +113,7 @@ TEST_CASE("labels: the shadows of a sea floor are those that rays through all su
     }
 }
 
-TEST_CASE(
-    "labels: in a full turn the beams next to the seam lend each other the owner of a shadow") {
+TEST_CASE("labels: in a full turn the beams next to the seam lend each other a shadow's owner") {
     // 12 beams. Lines end in the beams 11 and 2; beam 0 is next to 11, and in a fan nearest to 2.
     View view{.azimuth_rad = 2.0 * pi,
               .elevation_rad = 0.5,
@@ -188,21 +183,15 @@ TEST_CASE("side-scan labels: a bin is in shadow where its echo falls by 10 dB") 
         const float half = draw.single(0.02, 0.3);
         const float z = draw.single(-0.3, 0.3);
         add_plate(scene, z, half);
-        const auto engine = make_engine(scene, {});
-        const TracedPing traced = trace(sonar, scene, *engine, Pose{}, 0);
-        SceneObjects objects = group_objects(scene, {});
-        objects.background.assign(objects.classes.size(), 0);
-        objects.background[objects.class_of(objects.object_of(scene.triangle_instance[0]))] = 1;
-        const PingLabels labels =
-            label_ping(traced, sonar.settings, scene, objects, *engine, everything);
-        const Ping clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
+        const Labelled found =
+            label(scene, sonar, Pose{}, EngineKind::rays, everything, objects_on_floor(scene));
         constexpr int port = 1;
         for (int i = bin_at(sonar, std::sqrt(45.0)) + 2; i < bin_at(sonar, std::sqrt(90.0)) - 1;
              ++i) {
-            const float ratio = clean.at(i, port) / open.clean.at(i, port);
+            const float ratio = found.clean.at(i, port) / open.clean.at(i, port);
             if (ratio > 0.08F && ratio < 0.125F) continue;
             ++(ratio < 0.1F ? dark : bright);
-            wrong += (labels.shadow[open.at(i, port)] > 0) != (ratio < 0.1F);
+            wrong += (found.labels.shadow[open.at(i, port)] > 0) != (ratio < 0.1F);
         }
     }
     CAPTURE_ALL(dark, bright, wrong);

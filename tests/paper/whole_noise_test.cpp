@@ -1,5 +1,4 @@
-#include "simulate/sonar/sonar.h"
-#include "simulate/visibility/rays/rays_engine.h"
+#include "support/sonars.h"
 #include "support/statistics.h"
 
 // The complete noise model on a whole image, against the equations written down as plainly as
@@ -17,8 +16,8 @@ Scene corner() {
     Scene scene = empty_scene();
     const std::uint32_t front = add_material(scene, R_front);
     const std::uint32_t port = add_material(scene, R_port);
-    add_quad(scene, {3, -9, -3}, {3, 1.2F, -3}, {3, 1.2F, 3}, {3, -9, 3}, front);
-    add_quad(scene, {0, 1.2F, -3}, {3, 1.2F, -3}, {3, 1.2F, 3}, {0, 1.2F, 3}, port);
+    add_rectangle(scene, {3, -9, -3}, {3, 1.2F, 3}, front);
+    add_rectangle(scene, {0, 1.2F, -3}, {3, 1.2F, 3}, port);
     return scene;
 }
 
@@ -27,9 +26,7 @@ SonarConfig small_sonar() {
     config.name = "fls";
     config.azimuth_deg = 60.0;
     config.elevation_deg = 6.0;
-    config.range_min_m = 2.0;
-    config.range_max_m = 4.4;
-    config.range_bins = 16;
+    set_range(config, 2.0, 4.4, 16);
     config.azimuth_bins = 64;
     config.noise.range_lambda_m = 0.2;
     config.noise.scatterer_m = 0.8;
@@ -145,9 +142,8 @@ class PlainSonar {
         // The offsets of the lattice of cells, in cells.
         const Eigen::Vector3d lattice(0.381966, 0.618034, 0.272019);
         std::array<int, 3> cell;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 3; ++k)
             cell[k] = static_cast<int>(std::floor(at[k] / config_.noise.scatterer_m + lattice[k]));
-        }
         const int beam = beam_at(at);
         if (beam >= 0) {
             points_.push_back({cell, beam, at.norm(), R * n.dot(v), area, false,

@@ -8,7 +8,7 @@ namespace {
 struct Everything {
     Scene scene = tank();
     std::unique_ptr<VisibilityEngine> engine = make_rays_engine(scene);
-    Pose pose{Eigen::Quaterniond::Identity(), {-3.0, 0.0, 1.5}};
+    Pose pose{.translation = {-3.0, 0.0, 1.5}};
     SonarConfig config;
     PingKey key{.seed = 7, .ping = 3};
 

@@ -16,10 +16,8 @@ constexpr Rgb white{255, 255, 255};
 /// A floor of 40 m at z = 0 with a box of 1 x 2 x 3 m on it, and a vehicle above the origin.
 Assembly box_on_a_floor(double height_m, double yaw) {
     Assembly assembly;
-    assembly.scene = empty_scene();
-    const std::uint32_t material = add_material(assembly.scene, 0.5F);
-    add_floor(assembly.scene, 20.0F, 0.0F, material);
-    add_box(assembly.scene, {5.0F, 2.0F, 0.0F}, {6.0F, 4.0F, 3.0F}, material);
+    assembly.scene = floor_scene(20.0F, 0.0F, 0.5F);
+    add_box(assembly.scene, {5.0F, 2.0F, 0.0F}, {6.0F, 4.0F, 3.0F}, 0);
     assembly.scene.bounds_min = {-20.0, -20.0, 0.0};
     assembly.scene.bounds_max = {20.0, 20.0, 3.0};
     assembly.trajectory = {{0.0, {rotation_from_rpy(0.0, 0.0, yaw), {0.0, 0.0, height_m}}}};

@@ -6,24 +6,8 @@
 
 namespace {
 
-Sonar sonar_of(SonarKind kind, double range_max_m, int range_bins) {
-    SonarConfig config = default_sonar(kind);
-    config.name = "test";
-    set_range(config, 0.5, range_max_m, range_bins);
-    return make_sonar(config, {});
-}
-
-Ping dark_ping(const Sonar& sonar) {
-    const View& view = sonar.settings.view;
-    Ping ping;
-    ping.range_bins = view.range_bins;
-    ping.beams = view.beams;
-    ping.intensity.assign(static_cast<std::size_t>(view.range_bins) * view.beams, 0.0F);
-    return ping;
-}
-
 Ping one_bin(const Sonar& sonar, int bin, int beam, float intensity) {
-    Ping ping = dark_ping(sonar);
+    Ping ping = even_ping(sonar, 0.0F);
     ping.intensity[static_cast<std::size_t>(bin) * ping.beams + beam] = intensity;
     return ping;
 }
@@ -35,7 +19,6 @@ int brightness(const Rgb& colour) {
 /// 90 degrees to 10 m, beams of 1 degree and bins of 0.1 m.
 Sonar imaging() {
     SonarConfig config = default_sonar(SonarKind::imaging);
-    config.name = "test";
     config.azimuth_deg = 90.0;
     config.azimuth_bins = 90;
     set_range(config, 0.0, 10.0, 100);
@@ -90,7 +73,7 @@ TEST_CASE("sonar panel: brightness finds itself, and the scale of the echoes cha
     const Sonar sonar = imaging();
     const auto panel_of = [&](float scale) {
         const auto render = [&](std::uint32_t) {
-            Ping ping = dark_ping(sonar);
+            Ping ping = even_ping(sonar, 0.0F);
             for (std::size_t k = 0; k < ping.intensity.size(); ++k)
                 ping.intensity[k] = scale * static_cast<float>(k % 100);
             return ping;
@@ -106,10 +89,12 @@ TEST_CASE("sonar panel: brightness finds itself, and the scale of the echoes cha
 }
 
 TEST_CASE("sonar panel: a waterfall has port on the left, a row per ping and marks at this one") {
-    const Sonar sonar = sonar_of(SonarKind::sidescan, 20.0, 390);  // bins of 0.05 m
+    SonarConfig config = default_sonar(SonarKind::sidescan);
+    set_range(config, 0.5, 20.0, 390);  // bins of 0.05 m
+    const Sonar sonar = make_sonar(config, {});
     // Port (beam 1) sees something at 10 m, in the fourth of ten pings alone.
     const auto render = [&](std::uint32_t pose) {
-        return pose == 3 ? one_bin(sonar, 190, 1, 1.0F) : dark_ping(sonar);
+        return pose == 3 ? one_bin(sonar, 190, 1, 1.0F) : even_ping(sonar, 0.0F);
     };
     Picture picture = draw_sonar(sonar, 7, 10, render, 600, 420).picture;
     REQUIRE(picture.width == 600);

@@ -127,22 +127,16 @@ TEST_CASE("masks: random pictures come back") {
         const auto masks = object_masks(ids, height);
         CHECK(ids_of(masks, ids.size()) == ids);
         for (const ObjectMask& mask : masks) {
-            int left = 1000, right = 0, top = 1000, bottom = 0;
+            PixelBox box;
             std::uint64_t area = 0;
             for (std::size_t n = 0; n < ids.size(); ++n) {
                 if (ids[n] != mask.id) continue;
                 const int x = static_cast<int>(n) / height;
                 const int y = static_cast<int>(n) % height;
-                left = std::min(left, x);
-                right = std::max(right, x + 1);
-                top = std::min(top, y);
-                bottom = std::max(bottom, y + 1);
+                box = joined(box, {x, x + 1, y, y + 1});
                 ++area;
             }
-            CHECK(mask.left == left);
-            CHECK(mask.right == right);
-            CHECK(mask.top == top);
-            CHECK(mask.bottom == bottom);
+            CHECK(PixelBox{mask.left, mask.right, mask.top, mask.bottom} == box);
             CHECK(mask.area == area);
         }
     }

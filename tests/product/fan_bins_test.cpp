@@ -7,7 +7,6 @@ namespace {
 
 Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
     SonarConfig config;
-    config.name = "test";
     config.azimuth_deg = azimuth_deg;
     set_range(config, 1.0, 10.0, 90);
     config.azimuth_bins = 40;

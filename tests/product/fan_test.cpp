@@ -6,19 +6,10 @@ namespace {
 
 Sonar fan_sonar(double azimuth_deg, double range_min_m, int range_bins, int beams) {
     SonarConfig config;
-    config.name = "test";
     config.azimuth_deg = azimuth_deg;
     set_range(config, range_min_m, 10.0, range_bins);
     config.azimuth_bins = beams;
     return make_sonar(config, {});
-}
-
-Ping uniform_ping(const Sonar& sonar, float intensity) {
-    Ping ping;
-    ping.range_bins = sonar.config.range_bins;
-    ping.beams = sonar.config.azimuth_bins;
-    ping.intensity.assign(static_cast<std::size_t>(ping.range_bins) * ping.beams, intensity);
-    return ping;
 }
 
 /// Grey back to a share of full scale.
@@ -137,7 +128,7 @@ TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left
         const FanMap map = make_fan_map(sonar, 700);
         for (const int range_bin : {5, 50, 99}) {
             for (const int beam : {0, 17, 30, 59}) {
-                Ping ping = uniform_ping(sonar, 0.0F);
+                Ping ping = even_ping(sonar, 0.0F);
                 ping.intensity[static_cast<std::size_t>(range_bin) * ping.beams + beam] = 1.0F;
                 const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
                 const double r0 = sonar.range_edges_m[range_bin];
@@ -180,7 +171,7 @@ TEST_CASE("fan: a uniform ping gives a uniform fan with smooth edges and a black
         for (const int width : {97, 700}) {
             const Sonar sonar = fan_sonar(azimuth_deg, 0.7, 512, 300);
             const FanMap map = make_fan_map(sonar, width);
-            const auto image = render_fan(map, uniform_ping(sonar, 0.25F), 1.0);
+            const auto image = render_fan(map, even_ping(sonar, 0.25F), 1.0);
             REQUIRE(image.size() == static_cast<std::size_t>(map.frame.width) * map.frame.height);
             std::size_t uneven = 0;
             std::size_t lit_outside = 0;
@@ -205,7 +196,7 @@ TEST_CASE("fan: a uniform ping gives a uniform fan with smooth edges and a black
 TEST_CASE("fan: edges are anti-aliased") {
     const Sonar sonar = fan_sonar(120, 0, 64, 64);
     const FanMap map = make_fan_map(sonar, 400);
-    const auto image = render_fan(map, uniform_ping(sonar, 1.0F), 1.0);
+    const auto image = render_fan(map, even_ping(sonar, 1.0F), 1.0);
     // Along the arc, coverage is the depth of the pixel's centre plus a half, to within the
     // 16 points' 1/16 and what the slope adds.
     double worst = 0.0;
@@ -239,10 +230,7 @@ TEST_CASE("fan: the table gives what direct resampling gives, on random sonars" 
         const Sonar sonar = fan_sonar(azimuth_deg, range_min_m, range_bins, beams);
         const int width = scene % 3 == 0 ? 0 : 40 + static_cast<int>(random() % 400);
         const FanMap map = make_fan_map(sonar, width);
-        Ping ping;
-        ping.range_bins = sonar.config.range_bins;
-        ping.beams = sonar.config.azimuth_bins;
-        ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
+        Ping ping = even_ping(sonar, 0.0F);
         for (float& value : ping.intensity)
             value = static_cast<float>(uniform(0.0, 1.2));
         const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
@@ -266,7 +254,7 @@ TEST_CASE("fan: full scale is white, more is white, nothing is black") {
     const FanMap map = make_fan_map(sonar, 64);
     const std::size_t centre = static_cast<std::size_t>(map.frame.height / 2) * 64 + 32;
     const auto grey = [&](float intensity, double full_scale) {
-        return render_fan(map, uniform_ping(sonar, intensity), full_scale)[centre];
+        return render_fan(map, even_ping(sonar, intensity), full_scale)[centre];
     };
     CHECK(grey(0.0F, 1.0) == 0);
     CHECK(grey(1.0F, 1.0) == 255);

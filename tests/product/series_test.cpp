@@ -1,7 +1,7 @@
 #include "simulate/product/bottom.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
-#include "support/test.h"
+#include "support/draws.h"
 
 TEST_CASE("bottom: the leading edge, to the bin") {
     CHECK_FALSE(first_return({}));
@@ -20,15 +20,14 @@ TEST_CASE("bottom: the leading edge, to the bin") {
 TEST_CASE("bottom: neither a bright target on it nor noise above it misleads") {
     // R H / r from bin 60 of 400, a wreck four times as bright far out; noise of a tenth of
     // the bottom's nearest echo over everything. One drawn column in 100 may fail.
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(1e-9, 1.0);
+    Uniform random(5);
     int wrong = 0;
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<float> column(400);
         for (int i = 0; i < 400; ++i) {
             const double bottom = i < 60 ? 0.0 : 0.2 * 60.0 / i;
             const double wreck = i >= 250 && i < 270 ? 0.8 : 0.0;
-            const double noise = 0.016 * std::sqrt(-2.0 * std::log(unit(random)));
+            const double noise = 0.016 * std::sqrt(-2.0 * std::log(random.between(1e-9, 1.0)));
             column[i] = static_cast<float>(bottom + wreck + noise);
         }
         wrong += std::abs(first_return_of_swath(column).value_or(-9) - 60) > 1;

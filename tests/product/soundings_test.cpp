@@ -3,6 +3,7 @@
 #include "simulate/product/bathymetry.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/visibility/make_engine.h"
+#include "support/draws.h"
 #include "support/sonars.h"
 
 namespace {
@@ -10,19 +11,10 @@ namespace {
 /// Three beams of 40 degrees, 100 bins of 10 cm from 0.
 Sonar three_beams(bool scale_with_range = false) {
     SonarConfig config = default_sonar(SonarKind::profiling);
-    config.name = "mbes";
     set_range(config, 0.0, 10.0, 100);
     config.azimuth_bins = 3;
     config.noise.scale_with_range = scale_with_range;
     return make_sonar(config, {});
-}
-
-Ping dark(const Sonar& sonar) {
-    Ping ping;
-    ping.range_bins = 100;
-    ping.beams = 3;
-    ping.intensity.assign(100 * sonar.settings.view.beams, 0.0F);
-    return ping;
 }
 
 /// A flat bottom 40 m below the origin.
@@ -38,10 +30,8 @@ std::shared_ptr<const SoundProfile> linear_profile(double gradient) {
 
 Sonar multibeam(double range_max_m, int beams, double azimuth_deg = 120.0) {
     SonarConfig config = default_sonar(SonarKind::profiling);
-    config.name = "mbes";
     config.azimuth_deg = azimuth_deg;
-    config.range_max_m = range_max_m;
-    config.range_bins = static_cast<int>(50.0 * range_max_m);  // 2 cm
+    set_range(config, config.range_min_m, range_max_m, static_cast<int>(50.0 * range_max_m));
     config.azimuth_bins = beams;
     return make_sonar(config, {0.02});
 }
@@ -50,7 +40,7 @@ Sonar multibeam(double range_max_m, int beams, double azimuth_deg = 120.0) {
 
 TEST_CASE("soundings: the middle of the strongest run, in the world") {
     const Sonar sonar = three_beams();
-    Ping ping = dark(sonar);
+    Ping ping = even_ping(sonar, 0.0F);
     // Beam 1, straight down: bins 50 and 51 of 0.3 and 0.1. Bin 50 alone stands out by 0.296
     // over the beam's mean of 0.004, both by (0.4 - 0.008) / sqrt(2) = 0.277.
     ping.intensity[50 * 3 + 1] = 0.3F;
@@ -109,15 +99,15 @@ TEST_CASE("soundings: noise hides no bottom that stands out of it") {
          [&](int bin, double u) { return -mean[bin] * std::log(u); }, 10, 0.01F}};
     for (const Case& one : cases) {
         CAPTURE(one.what);
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> unit(1e-9, 1.0);
+        Uniform random(3);
         const std::vector<double>& edges = one.sonar.range_edges_m;
         for (int trial = 0; trial < 100; ++trial) {
-            Ping ping = dark(one.sonar);
+            Ping ping = even_ping(one.sonar, 0.0F);
             for (int i = 0; i < 100; ++i) {
                 for (int j = 0; j < 3; ++j) {
-                    ping.intensity[i * 3 + j] = static_cast<float>(one.noise(i, unit(random))) +
-                                                (i == one.bottom_bin ? one.bottom : 0.0F);
+                    const double noise = one.noise(i, random.between(1e-9, 1.0));
+                    ping.intensity[i * 3 + j] =
+                        static_cast<float>(noise) + (i == one.bottom_bin ? one.bottom : 0.0F);
                 }
             }
             for (const Sounding& sounding : find_soundings(one.sonar, Pose{}, ping)) {
@@ -138,17 +128,15 @@ TEST_CASE("soundings: on oblique ground they lie where both neighbours are equal
     SonarConfig config = three_beams().config;
     config.model = ModelKind::calibrated;
     const Sonar sonar = make_sonar(config, {});
-    SonarConfig other = config;
-    other.model = ModelKind::paper;
-    const Sonar without_patterns = make_sonar(other, {});
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(1e-9, 1.0);
+    config.model = ModelKind::paper;
+    const Sonar without_patterns = make_sonar(config, {});
+    Uniform random(5);
     double by_middle = 0.0;
     constexpr int trials = 100;
     for (int trial = 0; trial < trials; ++trial) {
-        Ping ping = dark(sonar);
+        Ping ping = even_ping(sonar, 0.0F);
         for (int i = 20; i < 80; ++i) {
-            const double speckle = std::sqrt(-0.1 * std::log(unit(random)));
+            const double speckle = std::sqrt(-0.1 * std::log(random.between(1e-9, 1.0)));
             for (int j = 0; j < 3; ++j) {
                 const double off = (i - 40 - 10 * j) / 8.0;
                 ping.intensity[i * 3 + j] = static_cast<float>(speckle * std::exp(-off * off));
@@ -174,10 +162,9 @@ TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
         Bathymetry grid = make_bathymetry(bounds, cell_m);
         for (const Eigen::Vector3d& point : points)
             grid.add(point);
-        const auto sum = std::accumulate(grid.weight.begin(), grid.weight.end(), 0.0);
-        CHECK(sum == points.size());
+        CHECK(total(grid.weight) == points.size());
         grid.add({100.0, 0.0, -1.0});  // outside: dropped, not clamped
-        CHECK(std::accumulate(grid.weight.begin(), grid.weight.end(), 0.0) == sum);
+        CHECK(total(grid.weight) == points.size());
     }
 }
 
@@ -239,7 +226,7 @@ TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the
         scene.sound_profile = linear_profile(g);
         Sonar sonar = multibeam(120.0, 240);
         sonar.sound_profile = scene.sound_profile;
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const auto engine = make_rays_engine(scene);
         const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
         const auto soundings = find_soundings(sonar, {}, ping);
         double outermost = 0.0;
@@ -268,7 +255,7 @@ TEST_CASE("soundings of a sonar that rolls and drives in a ping lie on the flat 
             scene.sound_profile = linear_profile(-0.5);
             sonar.sound_profile = scene.sound_profile;
         }
-        const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+        const auto engine = engine_of(scene, EngineKind::rays);
         const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
         int found = 0;
         for (const Sounding& sounding : find_soundings(sonar, {}, ping, motion)) {

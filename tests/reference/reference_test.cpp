@@ -61,9 +61,8 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
 
 TEST_CASE("where two surfaces share a bin the reference weighs them by area") {
     // Two walls at one distance, R = 0.2 below the sonar, 0.8 above: the mean is 0.5 D / r.
-    Scene scene = empty_scene();
-    add_quad(scene, {4, -9, -9}, {4, 9, -9}, {4, 9, 0}, {4, -9, 0}, add_material(scene, 0.2F));
-    add_quad(scene, {4, -9, 0}, {4, 9, 0}, {4, 9, 9}, {4, -9, 9}, add_material(scene, 0.8F));
+    Scene scene = rectangle_scene({4, -9, -9}, {4, 9, 0}, 0.2F);
+    add_rectangle(scene, {4, -9, 0}, {4, 9, 9}, add_material(scene, 0.8F));
     const Caster caster(scene);
     View view = small_view();
     view.range_bins = 200;
@@ -116,12 +115,8 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
 TEST_CASE("rays and points of the surface together add up to its area") {
     // Two plates that face the sonar, one behind the other. The near one hides 1.5 times its size
     // in the farther one.
-    Scene plates = empty_scene();
-    const std::uint32_t material = add_material(plates, 0.5F);
-    add_quad(plates, {4, -0.3F, -0.3F}, {4, 0.1F, -0.3F}, {4, 0.1F, 0.2F}, {4, -0.3F, 0.2F},
-             material, 3);
-    add_quad(plates, {6, -0.6F, -0.6F}, {6, 0.6F, -0.6F}, {6, 0.6F, 0.6F}, {6, -0.6F, 0.6F},
-             material, 50);
+    Scene plates = rectangle_scene({4, -0.3F, -0.3F}, {4, 0.1F, 0.2F}, 0.5F, 3);
+    add_rectangle(plates, {6, -0.6F, -0.6F}, {6, 0.6F, 0.6F}, 0, 50);
     // A sphere at 4 m. The visible cap ends where sight lines touch it: its area is
     // 2 pi R^2 (1 - R / D), its solid angle 2 pi (1 - sqrt(1 - R^2 / D^2)).
     constexpr double R = 0.5;
@@ -168,7 +163,7 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     Scene shared = empty_scene(Eigen::Vector3d(1e4, -2e4, 5.0));
     const std::uint32_t stone = add_material(shared, 0.5F);
     const std::uint32_t steel = add_material(shared, 0.9F);
-    add_quad(shared, {6, -3, -3}, {6, 3, -3}, {6, 3, 3}, {6, -3, 3}, stone, 4);
+    add_rectangle(shared, {6, -3, -3}, {6, 3, 3}, stone, 4);
     Scene copied = shared;
     Scene shape = empty_scene();
     add_sphere(shape, {0, 0, 0}, 0.4F, 0, 24);
@@ -177,19 +172,18 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     for (const auto& [place, scale] : {std::pair{Eigen::Vector3d(3.5, -0.8, 0.1), 1.0},
                                        {Eigen::Vector3d(4.2, 1.0, -0.2), 2.0},
                                        {Eigen::Vector3d(-4.0, 0.0, 0.0), 1.0}}) {
-        Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
-        T_world_mesh.translation() = shared.origin + place;
-        T_world_mesh.linear() = scale * rotation_from_rpy(0.3, 0.2, 0.1).toRotationMatrix();
+        const Eigen::Affine3d T_world_mesh = Eigen::Translation3d(shared.origin + place) *
+                                             rotation_from_rpy(0.3, 0.2, 0.1) *
+                                             Eigen::Scaling(scale);
         shared.copies.push_back({0, 0, T_world_mesh});
         const std::size_t first = copied.vertices.size();
         add_sphere(copied, {0, 0, 0}, 0.4F, steel, 24);
-        for (std::size_t v = first; v < copied.vertices.size(); ++v) {
+        for (std::size_t v = first; v < copied.vertices.size(); ++v)
             copied.vertices[v] =
                 (T_world_mesh * copied.vertices[v].cast<double>() - shared.origin).cast<float>();
-        }
     }
     const View view{radians(60.0), radians(40.0), 0.5, 8.0, 75, 32, 0.03};
-    const Pose pose{Eigen::Quaterniond::Identity(), shared.origin};
+    const Pose pose{.translation = shared.origin};
     const ReferenceGoal goal{0.01, 64.0, 2'000'000};
     const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
     const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
@@ -222,10 +216,8 @@ TEST_CASE("image errors by hand") {
 // The rays represent a fully visible floor to within rounding, so their image and that of many
 // single points are the same integral.
 TEST_CASE("the calibrated reference agrees with the engines") {
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_floor(scene, 30.0F, -4.0F, rock, 4);
-    add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, rock, 48);
+    Scene scene = floor_scene(30.0F, -4.0F, 0.4F, 4);
+    add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, 0, 48);
     const Caster caster(scene);
     Sonar hears_more = coarse_sonar(SonarKind::imaging);
     hears_more.settings.view.elevation_rad = radians(120.0);
@@ -234,17 +226,13 @@ TEST_CASE("the calibrated reference agrees with the engines") {
          {coarse_sonar(SonarKind::imaging), hears_more, coarse_sonar(SonarKind::sidescan),
           coarse_sonar(SonarKind::echosounder)}) {
         const SonarKind kind = sonar.config.kind;
-        const Pose T_world_vehicle{
-            rotation_from_rpy(0.0, kind == SonarKind::imaging ? radians(35.0) : 0.0, 0.0),
-            Eigen::Vector3d::Zero()};
+        const Pose T_world_vehicle = pitched(kind == SonarKind::imaging ? 35.0 : 0.0);
         const Reference reference =
             cast_energy_reference(caster, scene, sonar.settings,
                                   sensor_pose(sonar, T_world_vehicle, 0), {0.01, 16.0, 30'000'000});
-        EngineSettings engine;
-        engine.type = EngineKind::rays;
-        const Ping ping = render_ping(sonar, scene, *make_engine(scene, engine), T_world_vehicle,
-                                      {}, direct_echoes_alone);
-        const ImageError error = image_error(ping.intensity, reference.intensity);
+        const std::vector<float> image =
+            expected_image(sonar, scene, EngineKind::rays, T_world_vehicle);
+        const ImageError error = image_error(image, reference.intensity);
         CAPTURE_ALL(name_of(kind), sonar.settings.view.guards.count, reference.noise);
         CHECK(error.relative_l1 < 0.02 + reference.noise);
         CHECK(reference.noise < 0.03);

@@ -57,6 +57,15 @@ Surface box(double x, double y, double z) {
                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
     return out;
 }
+/// The plane z = a x + b y, |x|, |y| <= half_m.
+Surface plane(double half_m, double a, double b) {
+    Surface out;
+    for (const auto& [x, y] :
+         {std::pair(-half_m, -half_m), {half_m, -half_m}, {half_m, half_m}, {-half_m, half_m}})
+        out.vertices.emplace_back(x, y, a * x + b * y);
+    out.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return out;
+}
 
 /// The least height above the bottom, of the edges in steps of a millimetre and of the faces over
 /// the nodes of the bottom.
@@ -219,11 +228,7 @@ TEST_CASE("placing: a share of the height is buried or raised, and what would va
 
 TEST_CASE("placing: on a plane a box that is aligned lies flat on it") {
     // z = 0.3 x + 0.1 y: all four corners of the box's lower face must lie in the plane.
-    Surface plane;
-    for (const auto& [x, y] : {std::pair(-9, -9), {9, -9}, {9, 9}, {-9, 9}})
-        plane.vertices.emplace_back(x, y, 0.3 * x + 0.1 * y);
-    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
-    const Bottom bottom(plane);
+    const Bottom bottom(plane(9, 0.3, 0.1));
     const Surface shape = box(0.4, 0.2, 0.1);
     const auto T =
         put_on_bottom(bottom, shape, {2.0, -3.0},
@@ -274,11 +279,7 @@ TEST_CASE("placing: room beside hulls of all sizes is that beside each hull one 
 
 TEST_CASE("placing: the time to scatter objects grows with their number, not with its square" *
           doctest::skip(sanitized)) {
-    Surface plane;
-    for (const auto& [x, y] : {std::pair(-500, -500), {500, -500}, {500, 500}, {-500, 500}})
-        plane.vertices.emplace_back(x, y, 0.0);
-    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
-    const Bottom bottom(plane);
+    const Bottom bottom(plane(500, 0.0, 0.0));
     const Surface shape = box(0.3, 0.2, 0.1);
     const auto seconds = [&](double count) {
         TakenGround taken;

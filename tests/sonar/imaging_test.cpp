@@ -42,7 +42,7 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
     constexpr double pitch_deg = 25.0;
     Scene scene = floor_scene(100.0F, 0.0F, R);
     const Sonar sonar = noise_free(small_imaging());
-    const Pose pose{rotation_from_rpy(0.0, radians(pitch_deg), 0.0), {0.0, 0.0, H}};
+    const Pose pose = pitched(pitch_deg, {0.0, 0.0, H});
     const Ping ping = look(scene, sonar, pose);
 
     // Straight ahead the field of view reaches the floor from H / sin(p + 6) to H / sin(p - 6).
@@ -99,7 +99,7 @@ TEST_CASE("a sphere agrees with its closed form") {
 
 TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
     const Scene scene = tank();
-    const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.0), {-3.0, 0.0, 1.5}};
+    const Pose pose = pitched(12.0, {-3.0, 0.0, 1.5});
     const auto engine = make_rays_engine(scene);
     const auto look = [&](const Sonar& sonar, const PingKey& key) {
         return render_ping(sonar, scene, *engine, pose, key).intensity;

@@ -5,21 +5,11 @@
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
-namespace {
-
-SonarConfig profiling() {
-    SonarConfig config = default_sonar(SonarKind::profiling);
-    config.name = "mbes";
-    return config;
-}
-
-}  // namespace
-
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
     // The middle of a run of whole bins is off by 0.20 bins on average.
     Scene scene = floor_scene(200.0F, 0.0F, 0.5F);
     const auto engine = make_rays_engine(scene);
-    const Sonar sonar = noise_free(profiling());
+    const Sonar sonar = noise_free(default_sonar(SonarKind::profiling));
     const double bin_m = sonar.settings.view.bin_m();
     for (const double H : {8.0, 12.37, 20.02, 30.3}) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, 1.0), {10.0, -5.0, H}};
@@ -52,7 +42,7 @@ TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(sa
     Scene scene = floor_scene(200.0F, 0.0F, 0.15F);
     const auto engine = make_rays_engine(scene);
     for (const double add_sigma : {0.01, 0.05}) {
-        SonarConfig config = profiling();
+        SonarConfig config = default_sonar(SonarKind::profiling);
         config.range_max_m = 30.0;
         config.noise.range_lambda_m = 0.04;
         config.noise.mult_sigma = 0.15;
@@ -65,7 +55,7 @@ TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(sa
         int kept = 0;
         for (std::uint32_t ping = 0; ping < 30; ++ping) {
             const double H = 12.0 + 0.0131 * ping;
-            const Pose pose{Eigen::Quaterniond::Identity(), {0.3 * ping, 0.0, H}};
+            const Pose pose{.translation = {0.3 * ping, 0.0, H}};
             const std::vector<Sounding> soundings =
                 find_soundings(sonar, pose, render_ping(sonar, scene, *engine, pose, {1, ping}));
             for (std::size_t j = 0; j < soundings.size(); ++j) {
@@ -103,9 +93,7 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
                             {SonarKind::echosounder, 10.0, 6.0, 200, 1, 0.003}}) {
         CAPTURE(static_cast<int>(one.kind));
         SonarConfig config = default_sonar(one.kind);
-        config.name = "sonar";
-        config.range_max_m = one.range_max_m;
-        config.range_bins = one.range_bins;
+        set_range(config, config.range_min_m, one.range_max_m, one.range_bins);
         config.azimuth_bins = one.beams;
         const Sonar sonar = noise_free(config);
         const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.3, -0.2, one.altitude_m}};

@@ -8,7 +8,6 @@ namespace {
 
 SonarConfig scanning_sonar() {
     SonarConfig config = default_sonar(SonarKind::scanning);
-    config.name = "head";
     config.step_deg = 10.0;
     set_range(config, 0.2, 6.0, 290);  // 2 cm each
     return config;
@@ -17,10 +16,8 @@ SonarConfig scanning_sonar() {
 /// A sphere of 0.2 m about (3, 0, 0) turned by `azimuth_deg` to port.
 Scene sphere_at(double azimuth_deg) {
     Scene scene = empty_scene();
-    const double azimuth = radians(azimuth_deg);
-    const Eigen::Vector3f centre(static_cast<float>(3.0 * std::cos(azimuth)),
-                                 static_cast<float>(3.0 * std::sin(azimuth)), 0.0F);
-    add_sphere(scene, centre, 0.2F, add_material(scene, 0.5F));
+    const Eigen::Vector3d centre = 3.0 * direction_of(radians(azimuth_deg), 0.0);
+    add_sphere(scene, centre.cast<float>(), 0.2F, add_material(scene, 0.5F));
     return scene;
 }
 

@@ -15,8 +15,7 @@ Sonar yawing_camera(ShutterOrder order, double turn) {
     SonarConfig config = default_sonar(SonarKind::imaging);
     config.azimuth_deg = 60.0;
     config.azimuth_bins = 60;
-    config.range_max_m = 15.0;
-    config.range_bins = 300;
+    set_range(config, config.range_min_m, 15.0, 300);
     config.moves_in_ping = true;
     config.shutter = {6, order, 0.05};
     Sonar sonar = make_sonar(config, {});
@@ -33,10 +32,10 @@ Scene plates() {
     Scene scene = empty_scene();
     const std::uint32_t rock = add_material(scene, 0.4F);
     for (int k = -9; k <= 9; ++k) {
-        const auto at = [&](double side, float z) {
-            const double azimuth = radians(5.0 * k + half_plate_deg * side);
-            return Eigen::Vector3f(static_cast<float>(10.0 * std::cos(azimuth)),
-                                   static_cast<float>(10.0 * std::sin(azimuth)), z);
+        const auto at = [&](double side, float z) -> Eigen::Vector3f {
+            const Eigen::Vector3d foot =
+                10.0 * direction_of(radians(5.0 * k + half_plate_deg * side), 0.0);
+            return foot.cast<float>() + z * Eigen::Vector3f::UnitZ();
         };
         add_quad(scene, at(-1.0, -1.0F), at(1.0, -1.0F), at(1.0, 1.0F), at(-1.0, 1.0F), rock);
     }

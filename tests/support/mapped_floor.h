@@ -48,9 +48,7 @@ inline Pose above_floor(double yaw_deg = 20.0) {
 
 inline Sonar imaging(ModelKind model, int bins = 80) {
     SonarConfig config = small_imaging();
-    if (model == ModelKind::calibrated) {
-        config = bare_sonar(config, 900e3);
-    }
+    if (model == ModelKind::calibrated) config = bare_sonar(config, 900e3);
     config.noise.gain = 1.0;
     config.elevation_deg = 40.0;
     set_range(config, 4.0, 12.0, bins);
@@ -61,9 +59,7 @@ inline Sonar imaging(ModelKind model, int bins = 80) {
 
 inline Sonar sidescan(ModelKind model, double bin_m = 0.05) {
     SonarConfig config = default_sonar(SonarKind::sidescan);
-    if (model == ModelKind::calibrated) {
-        config = bare_sonar(config, 400e3);
-    }
+    if (model == ModelKind::calibrated) config = bare_sonar(config, 400e3);
     config.noise.gain = 1.0;
     set_range(config, 3.5, 12.5, static_cast<int>(std::lround(9.0 / bin_m)));
     return make_sonar(config, {0.01});

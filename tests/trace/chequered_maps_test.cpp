@@ -212,7 +212,7 @@ TEST_CASE("the pieces of a sample tile it, and have its area") {
     const Sonar sonar = imaging(ModelKind::paper);
     const Pose pose = sensor_pose(sonar, above_floor(), 0);
     for (const EngineKind type : engine_types) {
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const auto engine = engine_of(scene, type);
         const Samples whole = engine->visible_surface(sonar.settings.view, pose);
         Samples cut = whole;
         apply_maps(*scene.maps, sonar.settings.view, pose, cut);
@@ -227,7 +227,7 @@ TEST_CASE("the pieces of a sample tile it, and have its area") {
 TEST_CASE("a second surface has the strength of its texel") {
     // A wall ahead, whose echo over the floor doubles where the floor is twice as strong.
     Scene scene = wide_floor();
-    add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 4}, {8, -9, 4}, 0, 4);
+    add_rectangle(scene, {8, -9, 0}, {8, 9, 4}, 0, 4);
     Scene twice = scene;
     lay(twice, {}, strengths(square_frame(1, 28.0), [](int, int) { return 2.0F; }));
     for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
@@ -236,8 +236,8 @@ TEST_CASE("a second surface has the strength of its texel") {
         config.multipath.method = MultipathMethod::cluster;
         const Sonar sonar = noise_free(config);
         const auto bounced = [&](const Scene& of) {
-            const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
-            return expected_image(sonar, of, EngineKind::rays, pose, multipath_alone);
+            return expected_image(sonar, of, EngineKind::rays, {.translation = {0.0, 0.0, 0.5}},
+                                  multipath_alone);
         };
         const std::vector<float> once = bounced(scene);
         const std::vector<float> both = bounced(twice);

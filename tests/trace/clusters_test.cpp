@@ -24,8 +24,8 @@ Scene rough_seafloor() {
 Scene corner() {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.6F);
-    add_quad(scene, {0, 2, -3}, {5, 2, -3}, {5, 2, 3}, {0, 2, 3}, m);
-    add_quad(scene, {5, -9, -3}, {5, 2, -3}, {5, 2, 3}, {5, -9, 3}, m);
+    add_rectangle(scene, {0, 2, -3}, {5, 2, 3}, m);
+    add_rectangle(scene, {5, -9, -3}, {5, 2, 3}, m);
     return scene;
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("what hides the second point hides it in a scene of any size") {
     for (const float scale : {1e-4F, 1.0F, 6000.0F}) {
         CAPTURE(scale);
         Scene scene = corner();
-        add_quad(scene, {1, -1, -1}, {1, 0.3F, -1}, {1, 0.3F, 1}, {1, -1, 1}, 0);
+        add_rectangle(scene, {1, -1, -1}, {1, 0.3F, 1}, 0);
         View view = fan(100.0, 12.0);
         const MultipathCounts expected = find(scene, view, clusters_of(0)).counts;
         for (Eigen::Vector3f& p : scene.vertices)
@@ -157,8 +157,7 @@ TEST_CASE("what hides the second point hides it however near it is") {
         return counts.hidden == 1;
     };
     CHECK(!hidden());
-    add_quad(scene, {4.99F, 1.4985F, -1}, {5, 1.4985F, -1}, {5, 1.4985F, 1}, {4.99F, 1.4985F, 1},
-             0);
+    add_rectangle(scene, {4.99F, 1.4985F, -1}, {5, 1.4985F, 1}, 0);
     CHECK(hidden());
 }
 
@@ -170,8 +169,8 @@ TEST_CASE("rounding hides nothing, wherever the sonar is and however large the t
     const auto bounces = [&](const Eigen::Vector3d& at, float size, int turn) {
         Scene scene = empty_scene();
         const std::uint32_t m = add_material(scene, 0.6F);
-        add_quad(scene, {5 - size, 2, -size}, {5, 2, -size}, {5, 2, size}, {5 - size, 2, size}, m);
-        add_quad(scene, {5, 2 - size, -size}, {5, 2, -size}, {5, 2, size}, {5, 2 - size, size}, m);
+        add_rectangle(scene, {5 - size, 2, -size}, {5, 2, size}, m);
+        add_rectangle(scene, {5, 2 - size, -size}, {5, 2, size}, m);
         for (Eigen::Vector3f& p : scene.vertices)
             p = (R * p.cast<double>() + at).cast<float>();
         const Pose pose{R * rotation_from_rpy(0.2, -0.1, radians(-20.0 + 12.0 * turn)), at};

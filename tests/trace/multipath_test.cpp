@@ -63,8 +63,8 @@ TEST_CASE("multipath between two perpendicular walls") {
     Scene scene = empty_scene();
     const std::uint32_t port = add_material(scene, 0.5F);
     const std::uint32_t front = add_material(scene, 0.8F);
-    add_quad(scene, {0, a, -3}, {b, a, -3}, {b, a, 3}, {0, a, 3}, port);
-    add_quad(scene, {b, -9, -3}, {b, a, -3}, {b, a, 3}, {b, -9, 3}, front);
+    add_rectangle(scene, {0, a, -3}, {b, a, 3}, port);
+    add_rectangle(scene, {b, -9, -3}, {b, a, 3}, front);
     const View view = fan(100.0, 12.0);
     const auto is_on_port = [](const Eigen::Vector3d& at) { return at.x() < b - 1e-3; };
     const auto image_source = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
@@ -105,10 +105,8 @@ TEST_CASE("multipath between two perpendicular walls") {
 }
 
 TEST_CASE("a wall behind the field of view contributes nothing") {
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.6F);
-    add_quad(scene, {4, -9, -9}, {4, 9, -9}, {4, 9, 9}, {4, -9, 9}, m);
-    add_quad(scene, {-2, -90, -90}, {-2, 90, -90}, {-2, 90, 90}, {-2, -90, 90}, m);
+    Scene scene = rectangle_scene({4, -9, -9}, {4, 9, 9}, 0.6F);
+    add_rectangle(scene, {-2, -90, -90}, {-2, 90, 90}, 0);
     const Found found = find(scene, fan(60.0, 12.0), clusters_of(5));
     CHECK(found.bounces.empty());
     CHECK(found.counts.outside == found.counts.samples);

@@ -34,10 +34,7 @@ TEST_CASE("particles: they drift, and bubbles rise and begin anew") {
 // A wall 8 m ahead, 4 m wide, hides what lies behind it and nothing aside of it: at 12 m its
 // shadow ends 3 m from the axis.
 TEST_CASE("particles: those in view that no surface hides") {
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_quad(scene, {8.0F, -2.0F, -5.0F}, {8.0F, 2.0F, -5.0F}, {8.0F, 2.0F, 5.0F},
-             {8.0F, -2.0F, 5.0F}, rock);
+    const Scene scene = rectangle_scene({8, -2, -5}, {8, 2, 5}, 0.4F);
     const auto engine = make_rays_engine(scene);
     Particles particles;
     particles.all = {particle_at(7.0, 0.0, 0.0),   particle_at(9.0, 0.0, 0.0),

@@ -62,9 +62,7 @@ TEST_CASE("ping motion: surface goes to the beam that receives it") {
     Samples samples;
     samples.beam_begin = {0};
     for (int j = 0; j < 10; ++j) {
-        const double azimuth = radians(-27.0 + 6.0 * j);
-        const Eigen::Vector3f ahead =
-            Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0).cast<float>();
+        const Eigen::Vector3f ahead = direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
         samples.items.push_back(
             patch_of(75.0F * ahead, -ahead, {0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.1F}));
         samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));

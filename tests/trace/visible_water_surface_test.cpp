@@ -41,7 +41,7 @@ Scene scene_below() {
 
 // Within a cone of the half angle a, straight up, lies a disc of the radius h tan a.
 TEST_CASE("water's surface: a cone that looks up sees a disc") {
-    const Pose up{rotation_from_rpy(0.0, radians(-90.0), 0.0), Eigen::Vector3d::Zero()};
+    const Pose up = pitched(-90.0);
     for (const double opening_deg : {7.0, 30.0, 60.0}) {
         CAPTURE(opening_deg);
         const double radius = surface_m * std::tan(radians(0.5 * opening_deg));
@@ -75,8 +75,7 @@ TEST_CASE("water's surface: a side-scan sonar sees it above") {
         view.beams = 2;
         view.range_max_m = std::max(40.0, c.to_m);
         view.range_bins = c.bins;
-        const Pose down{rotation_from_rpy(0.0, radians(90.0), 0.0),
-                        Eigen::Vector3d(0.0, 0.0, surface_m - c.below_m)};
+        const Pose down = pitched(90.0, {0.0, 0.0, surface_m - c.below_m});
         // The integral of r^2 dr / sqrt(r^2 - h^2).
         const auto integral = [&](double r) {
             const double y = std::sqrt(r * r - c.below_m * c.below_m);
@@ -91,11 +90,10 @@ TEST_CASE("water's surface: a side-scan sonar sees it above") {
 
 TEST_CASE("water's surface: what hides it, and a sonar above it") {
     Scene scene = scene_below();
-    add_quad(scene, {-50.0F, -50.0F, 3.0F}, {50.0F, -50.0F, 3.0F}, {50.0F, 50.0F, 3.0F},
-             {-50.0F, 50.0F, 3.0F}, 0);
+    add_floor(scene, 50.0F, 3.0F, 0);
     const View view = view_to_surface(ViewShape::fan, 60.0, 40.0);
     CHECK(area_between(scene, view, {}, 0.0, 40.0) == 0.0);
-    const Pose above{rotation_from_rpy(0.0, radians(-90.0), 0.0), {0.0, 0.0, 6.0}};
+    const Pose above = pitched(-90.0, {0.0, 0.0, 6.0});
     CHECK(area_between(scene_below(), view, above, 0.0, 40.0) == 0.0);
 }
 
@@ -109,7 +107,7 @@ TEST_CASE("water surface: the second bottom echo of an echosounder") {
     Scene scene = floor_scene(50.0F, 0.0F, 0.25F, 4);
     scene.water_surface = {h + d, 0.9F};
     const View view{radians(30.0), radians(30.0), 0.5, 20.0, 400, 1, 0.03, ViewShape::cone};
-    const Pose down{rotation_from_rpy(0.0, radians(90.0), 0.0), {0.0, 0.0, h}};
+    const Pose down = pitched(90.0, {0.0, 0.0, h});
     for (const int epsilon : {0, 5}) {
         const auto found = find(scene, view, clusters_of(epsilon), down);
         REQUIRE(found.bounces.size() > 10);
@@ -139,9 +137,7 @@ TEST_CASE("water surface: the ghost of a wall in the surface") {
     // The sonar looks along x, level, at a wall at x = 6; the surface is 1 m above. Sound goes
     // over the wall to the surface and straight back: the mirror image of the sonar in the
     // wall is at (12, 0, 0), and p is where the line from there meets the surface.
-    Scene scene = empty_scene();
-    const std::uint32_t wall = add_material(scene, 0.5F);
-    add_quad(scene, {6, -9, -9}, {6, 9, -9}, {6, 9, 9}, {6, -9, 9}, wall, 4);
+    Scene scene = rectangle_scene({6, -9, -9}, {6, 9, 9}, 0.5F, 4);
     scene.water_surface = {1.0, 0.8F};
     View view = fan(60.0, 60.0);
     view.range_max_m = 12.0;

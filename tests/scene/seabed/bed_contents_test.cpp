@@ -28,10 +28,7 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
     const Seabed bed = make_seabed(rule);
     const double expected = 0.7 * area_of_heights(bed);
     CHECK(std::abs(static_cast<double>(bed.rocks.size()) - expected) < 4.0 * std::sqrt(expected));
-    std::vector<double> diameters;
-    std::vector<double> buried;
-    std::vector<double> x;
-    std::vector<double> y;
+    std::vector<double> diameters, buried, x, y;
     for (const Rock& rock : bed.rocks) {
         diameters.push_back(rock.diameter_m);
         buried.push_back(rock.buried);
