@@ -81,9 +81,8 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
         // Without errors of phase this is the width that the preset asks for.
         const LineArray array = array_of(sonar);
         const double width = aperture_width(array);
-        if (array.quartic_rad == 0.0) {
+        if (array.quartic_rad == 0.0)
             CHECK(std::fabs(width / radians(sonar.config.instrument.beam.width_deg) - 1.0) < 2e-3);
-        }
         const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
         const double beams_m = half_power_width(rows.row(bin).transpose()) * spacing;
         const double pulse_m = half_power_width(rows.col(beam)) * sonar.settings.view.bin_m();

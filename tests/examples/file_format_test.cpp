@@ -2,7 +2,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "output/dataset/writer.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/small_mission.h"
 
 namespace {

@@ -1,6 +1,5 @@
 // The example of docs/development.md, "Add a label".
 
-#include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
 
 namespace {

@@ -62,9 +62,8 @@ std::vector<float> plane_law(const HardContext& context, double reflection, doub
     std::vector<float> truth(ping.intensity.size(), unchecked);
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 1; i + 1 < ping.range_bins; ++i) {
-            if (!(ping.at(i - 1, j) > 0.0F && ping.at(i, j) > 0.0F && ping.at(i + 1, j) > 0.0F)) {
+            if (!(ping.at(i - 1, j) > 0.0F && ping.at(i, j) > 0.0F && ping.at(i + 1, j) > 0.0F))
                 continue;
-            }
             const double middle = 0.5 * (edges[i] + edges[i + 1]);
             truth[static_cast<std::size_t>(i) * ping.beams + j] =
                 static_cast<float>(reflection * height_m / middle);

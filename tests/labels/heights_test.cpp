@@ -1,7 +1,5 @@
 #include "simulate/labels/labels.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/labelled.h"
-#include "support/sonars.h"
 
 namespace {
 

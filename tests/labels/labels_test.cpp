@@ -1,9 +1,7 @@
 #include "simulate/labels/labels.h"
 
-#include "simulate/visibility/make_engine.h"
 #include "support/bounces.h"
 #include "support/labelled.h"
-#include "support/sonars.h"
 
 namespace {
 

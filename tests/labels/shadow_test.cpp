@@ -1,7 +1,6 @@
 #include "simulate/labels/shadow.h"
 
 #include "simulate/labels/hidden_surface.h"
-#include "simulate/sonar/kinds.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"

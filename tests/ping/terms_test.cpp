@@ -1,5 +1,4 @@
 #include "simulate/trace/ping.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
 namespace {

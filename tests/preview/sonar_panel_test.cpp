@@ -1,7 +1,5 @@
 #include "run/preview/preview.h"
 #include "simulate/product/fan.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
 namespace {

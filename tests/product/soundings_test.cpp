@@ -1,8 +1,6 @@
 #include "simulate/product/soundings.h"
 
 #include "simulate/product/bathymetry.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/draws.h"
 #include "support/sonars.h"
 

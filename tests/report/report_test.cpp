@@ -146,9 +146,8 @@ TEST_CASE("the settings hold the mission's own setting once, marked, and no need
     Assembly assembly = small_assembly(mission, 1);
     assembly.scene.shared_meshes.push_back({});
     assembly.scene.copies.push_back({0, 0, Eigen::Affine3d::Identity()});
-    for (const Setting& setting : make_settings(mission, false)) {
+    for (const Setting& setting : make_settings(mission, false))
         CHECK(unsupported(setting, assembly).empty() == (setting.kind != EngineKind::octree));
-    }
 }
 
 TEST_CASE("a goal is met at the worst pose, or missed") {

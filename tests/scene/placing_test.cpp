@@ -1,6 +1,5 @@
 #include <ctime>
 
-#include "core/pose.h"
 #include "core/random.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/placing/rest.h"

@@ -1,8 +1,6 @@
 #include "simulate/product/bathymetry.h"
 #include "simulate/product/soundings.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {

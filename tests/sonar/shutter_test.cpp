@@ -2,8 +2,6 @@
 #include <span>
 
 #include "simulate/product/object_table.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/labelled.h"
 
 namespace {

@@ -1,7 +1,6 @@
 #include "support/small_mission.h"
 
 #include "simulate/assembly/brightness.h"
-#include "simulate/sonar/kinds.h"
 #include "support/sonars.h"
 
 namespace sonarsim::test {

@@ -1,4 +1,3 @@
-#include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "simulate/water/sound_profile.h"
 #include "visibility/strips/fixtures.h"

@@ -1,6 +1,5 @@
 #include "simulate/visibility/rays/bent_rays.h"
 
-#include "simulate/visibility/make_engine.h"
 #include "simulate/water/water_ray.h"
 #include "support/patches.h"
 

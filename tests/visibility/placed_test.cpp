@@ -1,7 +1,5 @@
-#include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/draws.h"
-#include "support/test.h"
 
 // Copies of shared meshes, and bodies that move.
 

@@ -1,4 +1,3 @@
-#include "simulate/visibility/make_engine.h"
 #include "visibility/strips/fixtures.h"
 
 namespace {

@@ -142,9 +142,8 @@ TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit
         gltf.document["nodes"][0]["translation"] = {shift, -shift, 2 * shift};
         const Scene moved = load(gltf);
         REQUIRE(moved.vertices.size() == scene.vertices.size());
-        for (std::size_t i = 0; i < scene.vertices.size(); ++i) {
+        for (std::size_t i = 0; i < scene.vertices.size(); ++i)
             CHECK(moved.vertices[i] == scene.vertices[i]);
-        }
         const Eigen::Vector3d moved_by = moved.origin - scene.origin;
         check_point(moved_by, shift, -2 * shift, -shift, 0.0);
     }

@@ -1,6 +1,5 @@
 #include "input/scene/heightmap/height_model.h"
 
-#include "core/file.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/placing/bottom.h"
 #include "output/format/geotiff.h"

@@ -213,7 +213,6 @@ TEST_CASE("OBJ, STL and PLY: files that are faulty") {
          "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n",
          "a.ply: has its surface as strips of triangles"},
     }};
-    for (const auto& file : faulty) {
+    for (const auto& file : faulty)
         CHECK_MESSAGE(error_of_mesh(file[0], file[1]).find(file[2]) != std::string::npos, file[2]);
-    }
 }

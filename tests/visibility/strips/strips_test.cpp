@@ -1,6 +1,5 @@
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/lattices.h"
