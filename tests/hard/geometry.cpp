@@ -6,24 +6,18 @@ namespace sonarsim {
 
 namespace {
 
-using namespace shapes;
-
-HardTrial plain_in_tank(SonarKind kind) {
-    return in_tank(kind);
-}
-
-std::vector<float> plain_floor_image(const HardContext& context) {
-    return image_of(plain_floor(), context.trial, context.engine, context.model);
-}
-
 void add_triangle(Scene& scene, const std::array<std::uint32_t, 3>& corners) {
     scene.triangles.push_back(corners);
     scene.triangle_material.push_back(0);
     scene.triangle_instance.push_back(0);
 }
 
-/// A floor with triangles that are a point, a line, or folded onto themselves.
-Scene floor_with_degenerates() {
+HardTrial plain_in_tank(SonarKind kind) {
+    return in_tank(kind);
+}
+
+/// Triangles that are a point, a line, or folded onto themselves.
+HardCase triangles_without_area() {
     Scene scene = plain_floor();
     add_triangle(scene, {0, 0, 0});
     add_triangle(scene, {0, 1, 1});
@@ -32,22 +26,28 @@ Scene floor_with_degenerates() {
     for (const float x : {0.0F, 1.0F, 2.0F})
         scene.vertices.emplace_back(x, x, 1.0F);
     add_triangle(scene, {first, first + 1, first + 2});
-    return scene;
+    return {.name = "triangles without area",
+            .scene = scene,
+            .truth =
+                [](const HardContext& context) {
+                    return image_of(plain_floor(), context.trial, context.engine, context.model);
+                },
+            .bounds = {0.0, 1e-6},
+            .truth_of_any_model = true};
 }
 
 /// A floor in strips; some are needles of 60 m by 60 micrometres.
-Scene floor_with_needles() {
+HardCase needles() {
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.5F);
     constexpr float needle = 6e-5F;
     const float y[] = {-30.0F, -1.0F, -1.0F + needle, 0.0F, needle, 1.0F, 1.0F + needle, 30.0F};
-    for (std::size_t i = 0; i + 1 < std::size(y); ++i) {
-        add_quad(scene, {-30, y[i], 0}, {30, y[i], 0}, {30, y[i + 1], 0}, {-30, y[i + 1], 0}, m);
-    }
-    return scene;
+    for (std::size_t i = 0; i + 1 < std::size(y); ++i)
+        add_rectangle(scene, {-30, y[i], 0}, {30, y[i + 1], 0}, m);
+    return {.name = "needle triangles", .scene = scene, .truth = floor_law, .bounds = {0.02}};
 }
 
-Scene doubled_tank() {
+HardCase duplicated_faces() {
     Scene scene = tank();
     const std::size_t count = scene.triangles.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -56,40 +56,53 @@ Scene doubled_tank() {
         scene.triangle_material.push_back(scene.triangle_material[i]);
         scene.triangle_instance.push_back(scene.triangle_instance[i]);
     }
-    return scene;
+    return {.name = "duplicated faces",
+            .scene = scene,
+            .trial = plain_in_tank,
+            .truth = tank_image,
+            .bounds = {1e-5, 0.01}};
 }
 
-Scene flipped_tank() {
+HardCase flipped_normals() {
     Scene scene = tank();
     for (std::size_t i = 0; i < scene.triangles.size(); i += 2)
         std::swap(scene.triangles[i][1], scene.triangles[i][2]);
-    return scene;
+    return {.name = "flipped normals",
+            .scene = scene,
+            .trial = plain_in_tank,
+            .truth = tank_image,
+            // Strips divide clipped triangles from another corner.
+            .bounds = {0.01},
+            .truth_of_any_model = true};
 }
 
 /// A floor in two halves, a tenth of a millimetre apart, whose vertices do not match.
-Scene cracked_floor() {
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.5F);
-    add_quad(scene, {-30, -30, 0}, {30, -30, 0}, {30, 0, 0}, {-30, 0, 0}, m, 7);
-    add_quad(scene, {-30, 1e-4F, 0}, {30, 1e-4F, 0}, {30, 30, 0}, {-30, 30, 0}, m, 10);
-    return scene;
+HardCase cracked_floor() {
+    Scene scene = rectangle_scene({-30, -30, 0}, {30, 0, 0}, 0.5F, 7);
+    add_rectangle(scene, {-30, 1e-4F, 0}, {30, 30, 0}, 0, 10);
+    return {.name = "T-junctions, a crack", .scene = scene, .truth = floor_law, .bounds = {0.02}};
 }
 
-Scene floor_with_pole() {
+HardCase thin_poles() {
     Scene scene = plain_floor();
     const std::uint32_t steel = add_material(scene, 0.9F);
     add_pole(scene, {3.0F, 0.6F, 0.0F}, 0.002F, 2.0F, steel, 8);
     add_pole(scene, {0.4F, 1.0F, 0.0F}, 0.002F, 1.0F, steel, 8);
-    return scene;
+    return {.name = "thin poles",
+            .scene = scene,
+            .truth = settled_reference,
+            .bounds = {0.05},
+            // A cone has a column of rays every 4 degrees, and a pole between two is not seen.
+            .rays_fail = true};
 }
 
-Scene triangle_of_10_km() {
+HardCase triangle_of_10_km() {
     Scene scene = empty_scene();
     add_material(scene, 0.5F);
     scene.instances.push_back("sea floor");
     scene.vertices = {{-5000, -4000, 0}, {5000, -4000, 0}, {0, 6000, 0}};
     add_triangle(scene, {0, 1, 2});
-    return scene;
+    return {.name = "one triangle of 10 km", .scene = scene, .truth = floor_law, .bounds = {0.02}};
 }
 
 /// The tank with a change to every vertex.
@@ -101,78 +114,84 @@ Scene tank_with(Change change) {
     return scene;
 }
 
-const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
-
-Scene rigidly_moved() {
-    return tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-        return motion.rotation * p + motion.translation;
-    });
+/// The trial in the tank with a change to the vehicle's pose.
+std::function<HardTrial(SonarKind)> moved_in_tank(const std::function<void(Pose&)>& change) {
+    return [change](SonarKind kind) {
+        HardTrial trial = in_tank(kind);
+        change(trial.T_world_vehicle);
+        return trial;
+    };
 }
 
-HardTrial rigidly_moved_trial(SonarKind kind) {
-    HardTrial trial = in_tank(kind);
-    trial.T_world_vehicle = motion * trial.T_world_vehicle;
-    return trial;
+HardCase rigid_motion() {
+    static const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
+    return {.name = "rigid motion",
+            .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+                return motion.rotation * p + motion.translation;
+            }),
+            .trial = moved_in_tank([](Pose& pose) { pose = motion * pose; }),
+            .truth = tank_image,
+            .bounds = {2e-3, 0.01},
+            .truth_of_any_model = true};
 }
 
-/// UTM eastings and northings off the grid.
-const Eigen::Vector3d utm(512345.678, 4812345.678, -43.21);
-
-/// Positions are rounded to float about an origin on a grid of 10 m, as when a file is read.
-Scene in_utm() {
+/// UTM eastings and northings off the grid. Positions are rounded to float about an origin on a
+/// grid of 10 m, as when a file is read.
+HardCase in_utm() {
+    static const Eigen::Vector3d utm(512345.678, 4812345.678, -43.21);
     const Eigen::Vector3d origin = 10.0 * (utm / 10.0).array().round().matrix();
     Scene scene =
         tank_with([&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + utm - origin; });
     scene.origin = origin;
-    return scene;
+    return {.name = "UTM, off the grid",
+            .scene = scene,
+            .trial = moved_in_tank([](Pose& pose) { pose.translation += utm; }),
+            .truth = tank_image,
+            .bounds = {1e-4, 1e-3},
+            .truth_of_any_model = true};
 }
 
-HardTrial in_utm_trial(SonarKind kind) {
-    HardTrial trial = in_tank(kind);
-    trial.T_world_vehicle.translation += utm;
-    return trial;
+HardCase small_tank() {
+    static constexpr double small = 1.25e-4;
+    return {
+        .name = "a tank of a millimetre",
+        .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; }),
+        .trial =
+            [](SonarKind kind) {
+                HardTrial trial = in_tank(kind, [](SonarConfig& c) {
+                    c.range_min_m *= small;
+                    c.range_max_m *= small;
+                });
+                trial.T_world_vehicle.translation *= small;
+                return trial;
+            },
+        .truth = tank_image,
+        .bounds = {1e-4}};
 }
 
-constexpr double small = 1.25e-4;
-
-Scene scaled() {
-    return tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; });
-}
-
-HardTrial scaled_trial(SonarKind kind) {
-    HardTrial trial = in_tank(kind, [](SonarConfig& c) {
-        c.range_min_m *= small;
-        c.range_max_m *= small;
-    });
-    trial.T_world_vehicle.translation *= small;
-    return trial;
-}
-
-Scene mirrored() {
-    return tank_with(
-        [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); });
-}
-
-/// y -> -y reverses the sense of roll and yaw.
-HardTrial mirrored_trial(SonarKind kind) {
-    HardTrial trial = in_tank(kind);
-    Pose& pose = trial.T_world_vehicle;
-    pose.translation.y() = -pose.translation.y();
-    pose.rotation.x() = -pose.rotation.x();
-    pose.rotation.z() = -pose.rotation.z();
-    return trial;
-}
-
-/// Swaps port and starboard.
-std::vector<float> mirrored_image(const HardContext& context) {
-    std::vector<float> image = tank_image(context);
-    for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
-        std::reverse(row, row + context.ping.beams);
-    return image;
+/// y -> -y swaps port and starboard and reverses the sense of roll and yaw.
+HardCase mirror() {
+    return {.name = "mirror",
+            .scene = tank_with(
+                [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); }),
+            .trial = moved_in_tank([](Pose& pose) {
+                pose.translation.y() = -pose.translation.y();
+                pose.rotation.x() = -pose.rotation.x();
+                pose.rotation.z() = -pose.rotation.z();
+            }),
+            .truth =
+                [](const HardContext& context) {
+                    std::vector<float> image = tank_image(context);
+                    for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
+                        std::reverse(row, row + context.ping.beams);
+                    return image;
+                },
+            .bounds = {0.01},
+            .truth_of_any_model = true};
 }
 
 /// A fixed permutation: 7919 and the number of triangles are coprime.
-Scene permuted() {
+HardCase permuted_triangles() {
     const Scene in_order = tank();
     Scene scene = in_order;
     const std::size_t count = scene.triangles.size();
@@ -182,79 +201,23 @@ Scene permuted() {
         scene.triangle_material[i] = in_order.triangle_material[from];
         scene.triangle_instance[i] = in_order.triangle_instance[from];
     }
-    return scene;
+    return {.name = "permuted triangles",
+            .scene = scene,
+            .trial = plain_in_tank,
+            .truth = tank_image,
+            .bounds = {1e-6},
+            .truth_of_any_model = true};
 }
 
 }  // namespace
 
 std::vector<HardCase> hard_geometry() {
-    return {{.name = "triangles without area",
-             .scene = floor_with_degenerates,
-             .truth = plain_floor_image,
-             .bounds = {0.0, 1e-6},
-             .truth_of_any_model = true},
-            {.name = "needle triangles",
-             .scene = floor_with_needles,
-             .truth = floor_law,
-             .bounds = {0.02}},
-            {.name = "duplicated faces",
-             .scene = doubled_tank,
-             .trial = plain_in_tank,
-             .truth = tank_image,
-             .bounds = {1e-5, 0.01}},
-            {.name = "flipped normals",
-             .scene = flipped_tank,
-             .trial = plain_in_tank,
-             .truth = tank_image,
-             // Strips divide clipped triangles from another corner.
-             .bounds = {0.01},
-             .truth_of_any_model = true},
-            {.name = "T-junctions, a crack",
-             .scene = cracked_floor,
-             .truth = floor_law,
-             .bounds = {0.02}},
-            {.name = "thin poles",
-             .scene = floor_with_pole,
-             .truth = settled_reference,
-             .bounds = {0.05},
-             // A cone has a column of rays every 4 degrees, and a pole between two is not seen.
-             .rays_fail = true},
-            {.name = "one triangle of 10 km",
-             .scene = triangle_of_10_km,
-             .truth = floor_law,
-             .bounds = {0.02}}};
+    return {triangles_without_area(), needles(),    duplicated_faces(), flipped_normals(),
+            cracked_floor(),          thin_poles(), triangle_of_10_km()};
 }
 
 std::vector<HardCase> hard_invariances() {
-    return {{.name = "rigid motion",
-             .scene = rigidly_moved,
-             .trial = rigidly_moved_trial,
-             .truth = tank_image,
-             .bounds = {2e-3, 0.01},
-             .truth_of_any_model = true},
-            {.name = "UTM, off the grid",
-             .scene = in_utm,
-             .trial = in_utm_trial,
-             .truth = tank_image,
-             .bounds = {1e-4, 1e-3},
-             .truth_of_any_model = true},
-            {.name = "a tank of a millimetre",
-             .scene = scaled,
-             .trial = scaled_trial,
-             .truth = tank_image,
-             .bounds = {1e-4}},
-            {.name = "mirror",
-             .scene = mirrored,
-             .trial = mirrored_trial,
-             .truth = mirrored_image,
-             .bounds = {0.01},
-             .truth_of_any_model = true},
-            {.name = "permuted triangles",
-             .scene = permuted,
-             .trial = [](SonarKind kind) { return in_tank(kind); },
-             .truth = tank_image,
-             .bounds = {1e-6},
-             .truth_of_any_model = true}};
+    return {rigid_motion(), in_utm(), small_tank(), mirror(), permuted_triangles()};
 }
 
 }  // namespace sonarsim
