@@ -131,19 +131,17 @@ TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fa
     // The middles of the two objects; the wall is longer than range_m.
     const Eigen::Vector3d near(5.05, 6, 0), far(40.05, -6, 2);
     for (const std::string of : {"objects", "post, box"}) {
-        const Assembly assembly =
-            assemble(disk.load("{look_at: '" + of +
-                                   "', count: 50, range_m: [2, 9], bearing_deg: [-9, 3], "
-                                   "elevation_deg: [2, 5], height_m: [1, 3]}",
-                               settings));
+        const std::string look = "{look_at: '" + of +
+                                 "', count: 50, range_m: [2, 9], bearing_deg: "
+                                 "[-9, 3], elevation_deg: [2, 5], height_m: [1, 3]}";
+        const Assembly assembly = assemble(disk.load(look, settings));
         for (const TimedPose& pose : assembly.trajectory) {
             const Pose& T = pose.T_world_vehicle;
             const bool is_far = T.translation.x() > 20.0;
             const Eigen::Vector3d visible =
                 (T.rotation * mount).conjugate() * ((is_far ? far : near) - T.translation);
             CHECK(std::abs(std::atan2(visible.y(), visible.x()) + radians(3)) < radians(6.001));
-            CHECK(std::abs(std::asin(visible.z() / visible.norm()) - radians(3.5)) <
-                  radians(1.501));
+            CHECK(std::abs(std::asin(visible.normalized().z()) - radians(3.5)) < radians(1.501));
         }
     }
 }

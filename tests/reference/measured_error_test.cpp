@@ -9,6 +9,12 @@
 
 namespace {
 
+/// A mission of the first sonar alone.
+Mission one_sensor() {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    return mission;
+}
 std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int threads) {
     const Assembly assembly = small_assembly(mission, 7);
     tbb::task_arena arena(threads);
@@ -37,8 +43,7 @@ TEST_CASE("measured errors: the same for any number of threads, and below the go
 }
 
 TEST_CASE("measured errors: a coarse octree is warned of, with the key to change") {
-    Mission mission = small_mission("unused");
-    mission.sensors.resize(1);
+    Mission mission = one_sensor();
     mission.engine = EngineKind::octree;
     mission.octree.leaf_m = 0.3;
     const std::vector<Warning> warnings = error_warnings(mission, errors_of(mission, 2));
@@ -50,8 +55,7 @@ TEST_CASE("measured errors: a coarse octree is warned of, with the key to change
 
 // Bins are 1 mm deep and a few millimetres wide: smaller than 1 cm^2.
 TEST_CASE("measured errors: most bins of a fine sonar that hold surface count") {
-    Mission mission = small_mission("unused");
-    mission.sensors.resize(1);
+    Mission mission = one_sensor();
     auto& fine = mission.sensors[0];
     fine.azimuth_deg = 4.0;
     fine.azimuth_bins = 40;
@@ -71,8 +75,7 @@ TEST_CASE("measured errors: most bins of a fine sonar that hold surface count") 
 
 TEST_CASE("measured errors: a finer image stands in for a reference with too much noise") {
     const Lattice lattice = draw_lattice(1000);
-    Mission mission = small_mission("unused");
-    mission.sensors.resize(1);
+    Mission mission = one_sensor();
     SonarConfig& fine = mission.sensors[0];
     fine = bare_sonar(lattice.sonar, 1e6);
     fine.range_bins = 1024;
@@ -102,8 +105,7 @@ TEST_CASE("measured errors: a finer image stands in for a reference with too muc
 
 // The truth has 32 times as fine a goal. A plate of 0.3 m before the wall adds narrow bounces.
 TEST_CASE("measured errors: multipath counts") {
-    Mission mission = small_mission("unused");
-    mission.sensors.resize(1);
+    Mission mission = one_sensor();
     mission.sensors[0].multipath.method = MultipathMethod::exact;
     for (const double goal : {0.1, 0.03}) {
         mission.accuracy.relative_l1 = goal;

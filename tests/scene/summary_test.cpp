@@ -33,11 +33,7 @@ TEST_CASE("summary: vertices that floats have rounded") {
     // Half a unit in the last place at 4.8e6 is 0.25 m.
     GltfBuilder gltf = one_triangle();
     CHECK(describe_scene(load(gltf)).find("rounding") == std::string::npos);
-    gltf.mesh(
-        {{{"attributes",
-           {{"POSITION", gltf.positions({{0, 0, -4.8e6F}, {8, 0, -4.8e6F}, {0, 8, -4.8e6F}})}}},
-          {"material", 0}}});
-    gltf.document["nodes"][0]["mesh"] = 1;
+    gltf.points({{0, 0, -4.8e6F}, {8, 0, -4.8e6F}, {0, 8, -4.8e6F}}, "sand");
     CHECK(describe_scene(load(gltf))
               .find("\nrounding   0.250 m, since vertices lie far from "
                     "the origin of their file or node\n") != std::string::npos);

@@ -64,6 +64,13 @@ std::string fault_of(Work work) {
     return "";
 }
 
+/// Each input of `faulty` is refused with its words, behind `where`.
+template <class Faulty, class Read>
+void check_faults(const Faulty& faulty, const std::string& where, Read read) {
+    for (const auto& one : faulty)
+        CHECK(fault_of([&] { read(one.first); }) == where + one.second);
+}
+
 /// The sum of numbers, in doubles.
 template <class Range>
 double total(const Range& numbers) {

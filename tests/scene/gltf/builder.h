@@ -69,6 +69,15 @@ struct GltfBuilder {
         return append("meshes", {{"name", "Tri"}, {"primitives", primitives}});
     }
 
+    /// A node with a mesh of one primitive: these points, of a material.
+    void points(const std::vector<Point>& points, const std::string& of,
+                const nlohmann::json& extra = nlohmann::json::object()) {
+        nlohmann::json primitive = {{"attributes", {{"POSITION", positions(points)}}},
+                                    {"material", material(of)}};
+        primitive.update(extra);
+        node({{"mesh", mesh(nlohmann::json::array({primitive}))}});
+    }
+
     int node(const nlohmann::json& entry) { return append("nodes", entry); }
 
     int append(const std::string& section, const nlohmann::json& entry) {
@@ -144,6 +153,13 @@ inline void check_point(const Eigen::Vector3d& p, double x, double y, double z,
                         double tolerance = 1e-6) {
     CAPTURE(p.transpose());
     CHECK((p - Eigen::Vector3d(x, y, z)).cwiseAbs().maxCoeff() <= tolerance);
+}
+
+/// The corners of triangle `i`.
+inline void check_triangle(const Scene& scene, std::size_t i,
+                           const std::array<Eigen::Vector3d, 3>& corners) {
+    for (std::size_t k = 0; k < 3; ++k)
+        check_point(world_corner(scene, i, k), corners[k].x(), corners[k].y(), corners[k].z());
 }
 
 }  // namespace sonarsim

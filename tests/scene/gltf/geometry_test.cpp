@@ -9,10 +9,7 @@ const std::vector<Point> square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
 
 GltfBuilder square_mesh(int mode) {
     GltfBuilder gltf;
-    gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(square)}}},
-                {"material", gltf.material("sand")},
-                {"mode", mode}}});
-    gltf.node({{"mesh", 0}});
+    gltf.points(square, "sand", {{"mode", mode}});
     return gltf;
 }
 
@@ -45,9 +42,7 @@ TEST_CASE("glTF: y up becomes z up, and a triangle knows material and instance")
     const Scene scene = load(gltf);
     REQUIRE(scene.triangles.size() == 1);
     // (x, -z, y) of (1 2 3), (2 2 3), (1 3 3).
-    check_point(world_corner(scene, 0, 0), 1, -3, 2);
-    check_point(world_corner(scene, 0, 1), 2, -3, 2);
-    check_point(world_corner(scene, 0, 2), 1, -3, 3);
+    check_triangle(scene, 0, {{{1, -3, 2}, {2, -3, 2}, {1, -3, 3}}});
     CHECK(scene.materials.at(scene.triangle_material[0]).name == "steel");
     CHECK(scene.materials.at(0).density_kg_m3 == 7850.0);
     CHECK(scene.materials.at(0).reflection > 0.8F);
@@ -76,9 +71,7 @@ TEST_CASE("glTF: sparse positions, over data and over zeros") {
                               {"values", {{"bufferView", values}}}};
         const Scene scene = load(gltf);
         REQUIRE(scene.triangles.size() == 1);
-        check_point(world_corner(scene, 0, 0), 0, 0, 0);
-        check_point(world_corner(scene, 0, 1), 4, 0, 0);
-        check_point(world_corner(scene, 0, 2), 0, 0, 5);
+        check_triangle(scene, 0, {{{0, 0, 0}, {4, 0, 0}, {0, 0, 5}}});
     }
 }
 
@@ -106,14 +99,12 @@ TEST_CASE("glTF: triangles without area or not finite, points and lines are drop
     points.insert(points.end(), {{5e8F, 0, 0}, {5e8F, 0, 0}, {0, 5e8F, 0}});  // a point twice
     points.insert(points.end(), {{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}});
     points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, infinity, 0}});
-    json primitives = {{{"attributes", {{"POSITION", gltf.positions(points)}}},
-                        {"material", gltf.material("sand")}}};
+    gltf.points(points, "sand");
+    json& primitives = gltf.document["meshes"][0]["primitives"];
     for (const int mode : {0, 1, 2, 3}) {
         primitives.push_back(primitives[0]);
         primitives.back()["mode"] = mode;
     }
-    gltf.mesh(primitives);
-    gltf.node({{"mesh", 0}});
     const Scene scene = load(gltf);
     CHECK(scene.triangles.size() == 1);
     CHECK(scene.vertices.size() == 3);  // the dropped triangles leave no vertices
@@ -132,10 +123,7 @@ TEST_CASE("glTF: triangles without area or not finite, points and lines are drop
 TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit by bit") {
     // The delicate case: a size of exactly 100 m and a centre at exactly half of that.
     GltfBuilder gltf;
-    const std::vector<Point> points{{0, 0, 0}, {100, 0.123456789F, 0}, {33.3F, 100, 77.7F}};
-    gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
-                {"material", gltf.material("sand")}}});
-    gltf.node({{"mesh", 0}});
+    gltf.points({{0, 0, 0}, {100, 0.123456789F, 0}, {33.3F, 100, 77.7F}}, "sand");
     const Scene scene = load(gltf);
     for (const double shift : {-100.0, 500000.0, 4800000.0}) {
         CAPTURE(shift);

@@ -256,18 +256,17 @@ TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes a
     rule.window = {-3.03, 1.2, 4.0, 5.0};
     const Seabed part = make_seabed(rule);
     CHECK(part.heights.size() < whole.heights.size() / 4);
-    bool same = true;
-    for (int row = 0; row < part.grid.rows; ++row) {
-        for (int column = 0; column < part.grid.columns; ++column) {
-            const std::int64_t along = part.grid.west + column - whole.grid.west;
-            const std::int64_t down = whole.grid.north - part.grid.north + row;
-            const auto in_whole = static_cast<std::size_t>(down * whole.grid.columns + along);
-            const auto in_part = static_cast<std::size_t>(row * part.grid.columns + column);
-            same = same && whole.heights[in_whole] == part.heights[in_part] &&
-                   whole.sediments.cells[in_whole] == part.sediments.cells[in_part];
+    const auto along = part.grid.west - whole.grid.west;
+    const auto down = whole.grid.north - part.grid.north;
+    const auto check_same = [&](const auto& in_part, const auto& in_whole) {
+        for (int row = 0; row < part.grid.rows; ++row) {
+            const auto begin = in_part.begin() + std::ptrdiff_t{row} * part.grid.columns;
+            CHECK(std::equal(begin, begin + part.grid.columns,
+                             in_whole.begin() + (down + row) * whole.grid.columns + along));
         }
-    }
-    CHECK(same);
+    };
+    check_same(part.heights, whole.heights);
+    check_same(part.sediments.cells, whole.sediments.cells);
     CHECK(part.rocks.size() > 20);
     for (const Rock& rock : part.rocks) {
         const auto same_rock = [&](const Rock& other) {

@@ -94,17 +94,13 @@ TEST_CASE("neighbouring facets of a rough bed have similar slopes") {
     SeabedRule rule = rule_of_size(5.0);
     rule.roughness = BedRoughnessConfig{0.004, 3.0, 2.0};
     const Seabed bed = make_seabed(rule);
-    double products = 0.0;
-    double squares = 0.0;
-    for (int row = 0; row < bed.grid.rows; ++row) {
-        const float* const z = &bed.heights[static_cast<std::size_t>(row) * bed.grid.columns];
-        for (int i = 0; i + 2 < bed.grid.columns; ++i) {
-            const double slope = z[i + 1] - z[i];
-            products += slope * (z[i + 2] - z[i + 1]);
-            squares += slope * slope;
-        }
-    }
-    CHECK(products / squares > 0.59);
+    const Eigen::Index columns = bed.grid.columns;
+    const Eigen::ArrayXXd z =
+        Eigen::Map<const Eigen::ArrayXXf>(bed.heights.data(), columns, bed.grid.rows)
+            .cast<double>();
+    const Eigen::ArrayXXd slope = z.bottomRows(columns - 1) - z.topRows(columns - 1);
+    const auto here = slope.topRows(columns - 2);
+    CHECK((here * slope.bottomRows(columns - 2)).sum() / here.square().sum() > 0.59);
 }
 
 TEST_CASE("ripples have their length, direction and height" * doctest::skip(sanitized)) {
@@ -159,47 +155,33 @@ TEST_CASE("a bed of a size ends there") {
 
 TEST_CASE("a smooth field has variance 1 and the correlation of its length") {
     const BedGrid grid{0.5, -80, 79, 160, 160};
-    double sum = 0.0;
-    double squares = 0.0;
-    double along_x = 0.0;
-    double along_y = 0.0;
-    double count = 0.0;
     constexpr int lag = 4;  // two lengths: exp(-1)
+    constexpr int side = 160 - lag;
+    // The mean, the square, and the products with the neighbours along x and y.
+    Eigen::Array4d means = Eigen::Array4d::Zero();
     for (std::uint32_t n = 0; n < 16; ++n) {
         const std::vector<float> field = smooth_field(grid, 1.0, key_of(n));
         REQUIRE(field.size() == grid.size());
-        for (int row = 0; row + lag < grid.rows; ++row) {
-            for (int column = 0; column + lag < grid.columns; ++column) {
-                const std::size_t i =
-                    static_cast<std::size_t>(row) * 160 + static_cast<std::size_t>(column);
-                const double x = field[i];
-                sum += x;
-                squares += x * x;
-                along_x += x * field[i + lag];
-                along_y += x * field[i + std::size_t{lag} * 160];
-                count += 1.0;
-            }
-        }
+        const Eigen::ArrayXXd all =
+            Eigen::Map<const Eigen::ArrayXXf>(field.data(), 160, 160).cast<double>();
+        const auto here = all.topLeftCorner(side, side);
+        means += Eigen::Array4d(here.mean(), here.square().mean(),
+                                (here * all.block(lag, 0, side, side)).mean(),
+                                (here * all.block(0, lag, side, side)).mean()) /
+                 16.0;
     }
     // 4 deviations, each sqrt(4 pi / n) of n square lengths, 16 fields of 78^2.
-    CHECK(std::abs(sum / count) < 0.046);
-    CHECK(std::abs(squares / count - 1.0) < 0.046);
-    CHECK(std::abs(along_x / count - std::exp(-1.0)) < 0.046);
-    CHECK(std::abs(along_y / count - std::exp(-1.0)) < 0.046);
+    const Eigen::Array4d expected(0.0, 1.0, std::exp(-1.0), std::exp(-1.0));
+    CHECK((means - expected).abs().maxCoeff() < 0.046);
 }
 
 TEST_CASE("a smooth field far below the cells takes no finer lattice, and cells are independent") {
     const BedGrid grid{0.5, -80, 79, 160, 160};
     const std::vector<float> field = smooth_field(grid, 1e-300, key_of(5));
     CHECK(field == smooth_field(grid, 0.005, key_of(5)));
-    double squares = 0.0;
-    double neighbours = 0.0;
-    for (std::size_t i = 0; i + 1 < field.size(); ++i) {
-        squares += static_cast<double>(field[i]) * static_cast<double>(field[i]);
-        neighbours += static_cast<double>(field[i]) * static_cast<double>(field[i + 1]);
-    }
+    const Eigen::ArrayXd all =
+        Eigen::Map<const Eigen::ArrayXf>(field.data(), 160 * 160).cast<double>();
     // 4 deviations: sqrt(2 / n) of a variance, sqrt(1 / n) of a correlation, n = 25,600.
-    const auto count = static_cast<double>(field.size());
-    CHECK(std::abs(squares / count - 1.0) < 0.036);
-    CHECK(std::abs(neighbours / count) < 0.025);
+    CHECK(std::abs(all.square().mean() - 1.0) < 0.036);
+    CHECK(std::abs((all.head(25599) * all.tail(25599)).mean()) < 0.025);
 }
