@@ -199,8 +199,7 @@ TEST_CASE("assemble: the instances of the bottom, for heights") {
 }
 
 TEST_CASE("assemble: the inputs' hash tells files, scenes and poses apart") {
-    const Mission mission = small_mission("out");
-    const Assembly assembly = small_assembly(mission, 7);
+    const Assembly assembly = small_assembly(small_mission("out"), 7);
     const std::string hash = inputs_hash(assembly);
     CHECK(hash.size() == 32);
     CHECK(inputs_hash(assembly) == hash);

@@ -10,17 +10,15 @@ namespace {
 const Trajectory three_poses{{10.0, {}}, {11.0, {}}, {12.5, {}}};
 
 ParticlesConfig school(ParticleRegion region, double count) {
-    ParticlesConfig config;
-    config.name = "school";
-    config.class_name = "herring";
-    config.kind = ParticleKind::fish;
-    config.length_m = {0.2, 0.3};
-    config.count = {count, count};
-    config.region = region;
-    config.position_m = {100.0, -50.0, -10.0};
-    config.size_m = {20.0, 10.0, 4.0};
-    config.drift_m_s = {0.5, 0.0, 0.0};
-    return config;
+    return {.name = "school",
+            .class_name = "herring",
+            .kind = ParticleKind::fish,
+            .length_m = {0.2, 0.3},
+            .count = {count, count},
+            .region = region,
+            .position_m = {100.0, -50.0, -10.0},
+            .size_m = {20.0, 10.0, 4.0},
+            .drift_m_s = {0.5, 0.0, 0.0}};
 }
 
 /// The particles that a sonar gets, and the scene with their instances.

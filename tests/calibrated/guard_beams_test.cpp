@@ -44,8 +44,7 @@ TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the sa
     // Guard beams as wide as two bins, in the same 60 degrees to either side.
     Sonar coarse = wide;
     coarse.settings.view.guards = {.count = 32, .beam_rad = radians(60.0) / 32};
-    const View widened = widened_view(coarse.settings.view);
-    CHECK(std::fabs(widened.azimuth_rad - radians(180.0)) < 1e-9);
+    CHECK(std::fabs(widened_view(coarse.settings.view).azimuth_rad - radians(180.0)) < 1e-9);
     CHECK(image_error(image_of_ball(coarse, azimuth, elevation), aside).relative_l1 < 0.02);
     CHECK(image_error(image_of_ball(coarse, -azimuth, elevation),
                       image_of_ball(wide, -azimuth, elevation))
@@ -60,8 +59,7 @@ TEST_CASE("beams that the array does not resolve are traced two at a time at coa
     config.azimuth_bins = 120;
     config.instrument.beam.width_deg = 1.0;
     const auto traced_beams = [&](double goal) {
-        const Sonar sonar = make_sonar(config, {goal});
-        return traced_view(sonar.settings.view).beams;
+        return traced_view(make_sonar(config, {goal}).settings.view).beams;
     };
     CHECK(traced_beams(0.03) == 60);
     CHECK(traced_beams(0.01) == 120);

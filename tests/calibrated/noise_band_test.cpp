@@ -72,8 +72,7 @@ struct NoiseOfPings {
 /// amplitudes' correlation (Siegert's relation), within 4.5 standard errors: 36 such tests fail
 /// once in 4000 runs by chance.
 void check_noise(const NoiseOfPings& noise) {
-    const double mean_db = db_of_power(mean(noise.power));
-    CHECK(std::fabs(mean_db) < 0.05);
+    CHECK(std::fabs(db_of_power(mean(noise.power))) < 0.05);
     const std::vector<float> taps = noise_taps(5.0, -20.0);
     for (int lag = 1; lag <= NoiseOfPings::lags; ++lag) {
         const double rho = tap_correlation(taps, lag);

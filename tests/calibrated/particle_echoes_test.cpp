@@ -133,15 +133,14 @@ TEST_CASE("particles: labels at their bin and beam") {
     scene.instances.emplace_back("fish_1");
     scene.materials.push_back({.name = "fish"});
     Sonar sonar = make_sonar(config, {});
-    Particles particles;
-    Particle& fish = particles.all.emplace_back();
     const double azimuth = radians(10.5);
-    fish.start_m = 8.05 * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.02);
-    fish.velocity_m_s = Eigen::Vector3d::Zero();
-    fish.section_m2 = section_m2;
-    fish.instance = 1;
-    fish.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
-    sonar.settings.particles = std::make_shared<const Particles>(particles);
+    const Particle fish{
+        .start_m = 8.05 * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.02),
+        .velocity_m_s = {0.0, 0.0, 0.0},
+        .section_m2 = section_m2,
+        .material = static_cast<std::uint32_t>(scene.materials.size() - 1),
+        .instance = 1};
+    sonar.settings.particles = std::make_shared<const Particles>(Particles{{fish}, {}});
     const Labelled found = label(scene, sonar, {}, EngineKind::rays);
     const std::size_t at = found.at(bin_at(sonar, 8.05), 40);
     REQUIRE(found.labels.object[at] > 0);

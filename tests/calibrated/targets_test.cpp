@@ -183,8 +183,7 @@ TEST_CASE("targets: where sound bends they have the echo of their apparent place
 
 TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
     Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_box(scene, {-1, -1, -1}, {1, 1, 1}, rock);
+    add_box(scene, {-1, -1, -1}, {1, 1, 1}, add_material(scene, 0.4F));
     const TargetShape cube =
         target_shape({scene.vertices, scene.triangles, scene.triangle_material});
     CHECK(cube.triangles.size() == 12);

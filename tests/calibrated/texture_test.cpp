@@ -113,9 +113,8 @@ TEST_CASE("texture: nobody sees the square of the short waves repeat") {
 }
 
 TEST_CASE("texture: a place has the same factor from everywhere") {
-    const std::vector<Eigen::Vector2d> places = drawn_places(4000);
     std::vector<Eigen::Vector2d> twice;
-    for (const Eigen::Vector2d& place : places)
+    for (const Eigen::Vector2d& place : drawn_places(4000))
         twice.insert(twice.end(), {place, place});
     const auto found = decibels(twice);
     for (std::size_t k = 0; k < found.size(); k += 2)

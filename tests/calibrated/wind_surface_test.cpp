@@ -86,6 +86,6 @@ TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
     const double taps = total(model.power_taps.taps);
     CHECK(std::fabs(db_of_power(total(windy) / (taps * flash(10.0)))) < 0.1);
     // The first echo is at 10 m.
-    const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
+    const auto brightest = std::ranges::max_element(windy) - windy.begin();
     CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) == approx(10.0).epsilon(0.01));
 }

@@ -23,8 +23,7 @@ std::string work_on(std::size_t i) {
 
 }  // namespace
 
-TEST_CASE(
-    "an ordered pipeline hands over each result once, in order, few at a time, until a stop") {
+TEST_CASE("an ordered pipeline hands over each result once, in order, few at a time") {
     const FourThreads four;
     constexpr std::size_t count = 1000;
     for (const std::size_t stop_after : {count, std::size_t{20}}) {

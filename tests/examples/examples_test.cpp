@@ -13,11 +13,10 @@ KindOfSonar obstacle_kind();
 TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     Scene scene = empty_scene();
     add_box(scene, {7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, add_material(scene, 0.6F));
-    const auto engine = make_rays_engine(scene);
     const KindOfSonar kind = obstacle_kind();
     SonarConfig config = kind.keys.defaults;
     const Sonar sonar = make_sonar(kind, config, {});
-    const Ping ping = render_ping(sonar, scene, *engine, {}, {});
+    const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), {}, {});
     const std::vector<float> row = record_values(kind.record, config, ping.intensity, 0.0F);
     REQUIRE(row.size() == kind.record.values(config));
     // Surface begins at 7.03 m and ends where the cone of half-angle 7.5 degrees does.

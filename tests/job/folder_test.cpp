@@ -35,9 +35,8 @@ void edit(const fs::path& path, const std::string& from, const std::string& to) 
 
 TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh") {
     const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path);
     write_file(temporary.path / ".dataset.json.0123456789abcdef.part", "{");
-    CHECK(run(mission, 2, false).complete);
+    CHECK(run(small_mission(temporary.path), 2, false).complete);
 }
 
 TEST_CASE("folder: what is not a dataset is never overwritten, asked or not") {

@@ -156,10 +156,9 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         // Both have all of the energy, in another unit.
         const double unit = total(by_labels) / total(by_points);
         const Box box = box_above(by_labels, unit * min_energy, view.beams, mask);
-        const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
         const double min_overlap = (1.0 - 1.0 / loud.sizes().x()) * (1.0 - 1.0 / loud.sizes().y());
-        CHECK(o >= std::min(0.95, min_overlap));
+        CHECK(overlap(box, between(box, loud, faint)) >= std::min(0.95, min_overlap));
         std::vector<float> decibels = found.clean.intensity;  // above the noise
         const double quiet = noise * *std::ranges::max_element(decibels);
         for (float& value : decibels)

@@ -24,10 +24,8 @@ std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objec
 
 TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     // The panel covers the azimuths up to atan(0.5 / 3) at 3 m; the wall stands at 6 m, |y| < 2.
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.5F);
-    add_rectangle(scene, {6, -2, -5}, {6, 2, 5}, m);
-    add_rectangle(scene, {3, -0.5F, -5}, {3, 0.5F, 5}, m);
+    Scene scene = rectangle_scene({6, -2, -5}, {6, 2, 5}, 0.5F);
+    add_rectangle(scene, {3, -0.5F, -5}, {3, 0.5F, 5}, 0);
     const Sonar sonar = noise_free(small_imaging());
     const double panel = std::atan2(0.5, 3.0);
     const double wall = std::atan2(2.0, 6.0);
@@ -70,11 +68,8 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
 TEST_CASE("labels: two things in one bin share its echo by area and reflection") {
     // Two panels face on at 5 m, one above the boresight, one below: equal areas and angles, so
     // that their shares are those of their reflections, 0.6 and 0.2.
-    Scene scene = empty_scene();
-    const std::uint32_t strong = add_material(scene, 0.6F);
-    const std::uint32_t weak = add_material(scene, 0.2F);
-    add_rectangle(scene, {5, -9, -9}, {5, 9, 0}, weak);
-    add_rectangle(scene, {5, -9, 0}, {5, 9, 9}, strong);
+    Scene scene = rectangle_scene({5, -9, -9}, {5, 9, 0}, 0.2F);
+    add_rectangle(scene, {5, -9, 0}, {5, 9, 9}, add_material(scene, 0.6F));
     const Sonar sonar = noise_free(small_imaging());
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
@@ -87,8 +82,7 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
             ++occupied;
             agree += out.labels.object[k] == 2 && out.labels.second[k] == 1;
             share += out.labels.share[k];
-            const float sum = out.labels.share[k] + out.labels.second_share[k];
-            CHECK(sum == approx(1.0).epsilon(1e-5));
+            CHECK(out.labels.share[k] + out.labels.second_share[k] == approx(1.0).epsilon(1e-5));
         }
         REQUIRE(occupied > 100.0);
         CHECK(agree / occupied > 0.98);

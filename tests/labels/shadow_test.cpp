@@ -48,7 +48,6 @@ Scene rippled_floor(Uniform& draw) {
 /// A side-scan sonar whose x axis points down, y to port.
 Sonar sonar_above_floor(double relative_l1) {
     SonarConfig config = bare_sonar(default_sonar(SonarKind::sidescan), 4e5);
-    config.name = "sss";
     set_range(config, config.range_min_m, 12.0, 240);
     config.elevation_deg = 8.0;
     config.instrument.beam.width_deg = 1.5;

@@ -74,8 +74,7 @@ TEST_CASE("a composed scene is written as it is read, and goes to another machin
     CHECK(mission_hash(elsewhere, sonar_keys()) == mission_hash(mission, sonar_keys()));
 }
 
-TEST_CASE(
-    "rules of scatter have the scene's area, kinds of the stock their files, clutter its rule") {
+TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its rule") {
     const std::string head =
         "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n  area: {min_m: [0, 1], max_m: [10, "
         "5]}\n";

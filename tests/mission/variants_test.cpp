@@ -91,8 +91,7 @@ TEST_CASE("draws: whole numbers and choices are equally likely, both ends includ
 }
 
 // Factors of 2 and 3 alone, so each value names what it was multiplied from.
-TEST_CASE(
-    "variants: a scale multiplies what other rules have drawn, else the mission's own value") {
+TEST_CASE("variants: a scale multiplies what other rules drew, else the mission's own value") {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path / "m.yaml";
     const std::string scale =

@@ -216,10 +216,9 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
             REQUIRE(echoes.size() == 1);
             CHECK(echoes.weight[0] == 0.5F);
             CHECK(echoes.intensity[0] == 0.25F);
-            const float nearest = echoes.range_m[0] - echoes.half_m[0];
-            const float farthest = echoes.range_m[0] + echoes.half_m[0];
-            CHECK(nearest == approx(5.0 - along).epsilon(1e-6));
-            CHECK(farthest == approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
+            CHECK(echoes.range_m[0] - echoes.half_m[0] == approx(5.0 - along).epsilon(1e-6));
+            CHECK(echoes.range_m[0] + echoes.half_m[0] ==
+                  approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
         }
     }
 }

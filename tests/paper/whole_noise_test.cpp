@@ -13,11 +13,8 @@ constexpr double R_front = 0.8;
 constexpr double R_port = 0.5;
 
 Scene corner() {
-    Scene scene = empty_scene();
-    const std::uint32_t front = add_material(scene, R_front);
-    const std::uint32_t port = add_material(scene, R_port);
-    add_rectangle(scene, {3, -9, -3}, {3, 1.2F, 3}, front);
-    add_rectangle(scene, {0, 1.2F, -3}, {3, 1.2F, 3}, port);
+    Scene scene = rectangle_scene({3, -9, -3}, {3, 1.2F, 3}, R_front);
+    add_rectangle(scene, {0, 1.2F, -3}, {3, 1.2F, 3}, add_material(scene, R_port));
     return scene;
 }
 

@@ -12,7 +12,6 @@ struct Everything {
     PingKey key{.seed = 7, .ping = 3};
 
     Everything() {
-        config.name = "fls";
         config.multipath.method = MultipathMethod::cluster;
         config.noise.range_lambda_m = 0.04;
         config.noise.add_sigma = 0.08;

@@ -13,8 +13,7 @@ TEST_CASE("detect return: a bright stretch of any place and length is found exac
             CAPTURE_ALL(length, begin);
             CHECK(run.begin == begin);
             CHECK(run.end == begin + length);
-            const double expected = 0.5 * std::sqrt(length) * (1.0 - length / 100.0);
-            CHECK(run.contrast == approx(expected));
+            CHECK(run.contrast == approx(0.5 * std::sqrt(length) * (1.0 - length / 100.0)));
             CHECK(run.rival == approx(0.0).epsilon(1e-12));
         }
     }

@@ -224,8 +224,7 @@ TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the
         scene.sound_profile = linear_profile(g);
         Sonar sonar = multibeam(120.0, 240);
         sonar.sound_profile = scene.sound_profile;
-        const auto engine = make_rays_engine(scene);
-        const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
+        const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), {}, {}, {});
         const auto soundings = find_soundings(sonar, {}, ping);
         double outermost = 0.0;
         for (std::size_t j = 0; j < soundings.size(); ++j) {

@@ -47,7 +47,7 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
     Scene scene = floor_scene(100.0F, 0.0F, R);
     const Caster caster(scene);
     const View view = small_view();
-    const Pose pose{rotation_from_rpy(0.0, radians(30.0), 0.0), {0.0, 0.0, H}};
+    const Pose pose = pitched(30.0, {0.0, 0.0, H});
     const Reference reference = cast_reference(caster, scene, view, pose, {0.0005, 64.0});
     CHECK(reference.noise < 0.0005);
     CHECK(reference.rays_per_bin >= 64.0);

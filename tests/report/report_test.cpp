@@ -6,12 +6,11 @@ namespace {
 
 /// A report on the first sonar of a mission, whose poses are those of small_assembly().
 Report report_of(const Mission& mission, const std::vector<Setting>& settings) {
-    ReportOptions options;
-    options.poses = 3;
-    options.rounds = 1;
-    options.threads = 2;
-    options.reference_noise = 0.005;
-    options.reference_rays = 4'000'000;
+    const ReportOptions options{.poses = 3,
+                                .rounds = 1,
+                                .threads = 2,
+                                .reference_noise = 0.005,
+                                .reference_rays = 4'000'000};
     return make_report(mission, small_assembly(mission, 4), settings, options,
                        [](const std::string&) {});
 }
@@ -32,19 +31,16 @@ Mission corner_mission(const MultipathConfig& multipath) {
 /// A corner of two walls in front of the vehicle, which moves towards them.
 Assembly corner_assembly(const Mission& mission) {
     Assembly assembly = small_assembly(mission, 3);
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.6F);
-    add_quad(scene, {0, 0, 0}, {-6, 6, 0}, {-6, 6, 3}, {0, 0, 3}, m);
-    add_quad(scene, {0, 0, 0}, {-6, -6, 0}, {-6, -6, 3}, {0, 0, 3}, m);
-    assembly.scene = scene;
+    assembly.scene = empty_scene();
+    const std::uint32_t m = add_material(assembly.scene, 0.6F);
+    add_quad(assembly.scene, {0, 0, 0}, {-6, 6, 0}, {-6, 6, 3}, {0, 0, 3}, m);
+    add_quad(assembly.scene, {0, 0, 0}, {-6, -6, 0}, {-6, -6, 3}, {0, 0, 3}, m);
     return assembly;
 }
 
 std::vector<Json> measure(const Mission& mission, const Assembly& assembly) {
-    ReportOptions options;
-    options.poses = 2;
-    options.rounds = 1;
-    return measure_multipath(mission, assembly, options, [](const std::string&) {});
+    return measure_multipath(mission, assembly, {.poses = 2, .rounds = 1},
+                             [](const std::string&) {});
 }
 
 const Json& row_of(const std::vector<Json>& rows, int epsilon, double delta) {

@@ -11,13 +11,10 @@ using Eigen::Vector3f;
 /// Adds bars and faces to a scene, about the origin, some two units wide.
 class LatticeBuilder {
   public:
-    LatticeBuilder(Draws& draws, Scene& scene)
-        : draws_(draws), scene_(scene), welded_(draws.half()) {
+    LatticeBuilder(Draws& draws, Scene& scene) : scene_(scene), welded_(draws.half()) {
         material_ = add_material(scene, draws.between(0.2F, 0.9F));
         scene.instances.emplace_back("lattice");
     }
-
-    Draws& draws() { return draws_; }
 
     /// A prism from a to b. Welded bars that meet in a node share its vertex.
     void bar(const Vector3f& a, const Vector3f& b, float radius, int sides) {
@@ -46,15 +43,13 @@ class LatticeBuilder {
         add_triangle(scene_, a, b, c, material_);
     }
 
-    Draws& draws_;
     Scene& scene_;
     bool welded_;
     std::uint32_t material_ = 0;
 };
 
 /// A girder of four chords with frames and diagonals, as of a crane.
-void truss(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void truss(LatticeBuilder& lattice, Draws& draws) {
     const int bays = draws.whole(3, 9);
     const float half = draws.between(0.08F, 0.3F);
     const float radius = draws.scale(0.004F, 0.03F);
@@ -76,8 +71,7 @@ void truss(LatticeBuilder& lattice) {
 }
 
 /// A net of ropes that sags and billows.
-void net(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void net(LatticeBuilder& lattice, Draws& draws) {
     const int cells = draws.whole(6, 24);
     const float radius = draws.scale(0.001F, 0.01F);
     const float sag = draws.between(0.0F, 0.5F);
@@ -100,8 +94,7 @@ void net(LatticeBuilder& lattice) {
 }
 
 /// A flight of stairs with rails and posts.
-void stairs(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void stairs(LatticeBuilder& lattice, Draws& draws) {
     const int treads = draws.whole(6, 20);
     const float half = draws.between(0.15F, 0.5F);
     const float depth = draws.between(0.8F, 1.6F) / static_cast<float>(treads);
@@ -123,8 +116,7 @@ void stairs(LatticeBuilder& lattice) {
 }
 
 /// Pipes that turn at right angles.
-void pipes(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void pipes(LatticeBuilder& lattice, Draws& draws) {
     const int count = draws.whole(2, 8);
     for (int n = 0; n < count; ++n) {
         Vector3f at = draws.in_ball();
@@ -143,8 +135,7 @@ void pipes(LatticeBuilder& lattice) {
 }
 
 /// Leaves on stems.
-void leaves(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void leaves(LatticeBuilder& lattice, Draws& draws) {
     const int count = draws.whole(60, 400);
     const float length = draws.scale(0.05F, 0.25F);
     const float stem = draws.scale(0.001F, 0.01F);
@@ -160,8 +151,7 @@ void leaves(LatticeBuilder& lattice) {
 }
 
 /// A wheel of two rims with spokes and braces.
-void wheel(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void wheel(LatticeBuilder& lattice, Draws& draws) {
     const int count = draws.whole(10, 40);
     const float half = draws.between(0.03F, 0.2F);
     const float radius = draws.scale(0.003F, 0.02F);
@@ -180,8 +170,7 @@ void wheel(LatticeBuilder& lattice) {
 }
 
 /// A ladder with a cage of hoops.
-void ladder(LatticeBuilder& lattice) {
-    Draws& draws = lattice.draws();
+void ladder(LatticeBuilder& lattice, Draws& draws) {
     const int rungs = draws.whole(8, 24);
     const int cage = draws.whole(6, 12);
     const float half = draws.between(0.1F, 0.25F);
@@ -203,19 +192,11 @@ void ladder(LatticeBuilder& lattice) {
     }
 }
 
-/// A shape by draws of the builder.
-struct LatticeShape {
-    const char* name;
-    void (*build)(LatticeBuilder&);
-};
-
-constexpr std::array<LatticeShape, 7> known_shapes{{{"truss", truss},
-                                                    {"net", net},
-                                                    {"stairs", stairs},
-                                                    {"pipes", pipes},
-                                                    {"leaves", leaves},
-                                                    {"wheel", wheel},
-                                                    {"ladder", ladder}}};
+/// Shapes by name.
+using Build = void (*)(LatticeBuilder&, Draws&);
+constexpr std::pair<const char*, Build> known_shapes[] = {
+    {"truss", truss},   {"net", net},     {"stairs", stairs}, {"pipes", pipes},
+    {"leaves", leaves}, {"wheel", wheel}, {"ladder", ladder}};
 
 /// A sonar for things of size `size_m` at `distance_m`.
 SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float distance_m) {
@@ -223,16 +204,14 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
                                SonarKind::sidescan, SonarKind::imaging,   SonarKind::echosounder,
                                SonarKind::imaging,  SonarKind::scanning};
     SonarConfig config;
-    config.name = "sonar";
     config.kind = kinds[number % kinds.size()];
     config.range_bins = 128;
     config.azimuth_bins = config.kind == SonarKind::imaging ? 64 << (number / 8 % 4) : 64;
     config.range_min_m = 0.2;
     config.range_max_m = static_cast<double>(distance_m + draws.between(0.8F, 1.5F) * size_m);
-    config.azimuth_deg = static_cast<double>(draws.between(30.0F, 90.0F));
-    config.elevation_deg = static_cast<double>(draws.between(10.0F, 25.0F));
-    if (config.kind == SonarKind::profiling)
-        config.elevation_deg = static_cast<double>(draws.between(1.0F, 3.0F));
+    config.azimuth_deg = draws.between(30.0F, 90.0F);
+    config.elevation_deg = draws.between(10.0F, 25.0F);
+    if (config.kind == SonarKind::profiling) config.elevation_deg = draws.between(1.0F, 3.0F);
     if (config.kind == SonarKind::sidescan) {
         config.azimuth_deg = static_cast<double>(draws.between(100.0F, 160.0F));
         config.elevation_deg = static_cast<double>(draws.between(0.25F, 1.0F));
@@ -251,11 +230,11 @@ Lattice draw_lattice(std::uint32_t number) {
     Draws draws(number);
     Lattice out;
     out.scene = empty_scene();
-    const LatticeShape& shape =
-        known_shapes[draws.whole(0, static_cast<int>(known_shapes.size()) - 1)];
-    out.shape = shape.name;
+    const auto& [name, build] =
+        known_shapes[draws.whole(0, static_cast<int>(std::ssize(known_shapes)) - 1)];
+    out.shape = name;
     LatticeBuilder builder(draws, out.scene);
-    shape.build(builder);
+    build(builder, draws);
     const float size = draws.scale(0.5F, 4.0F);  // half of its length, m
     const float distance = size * draws.scale(1.2F, 6.0F);
     out.sonar = draw_sonar(draws, number, size, distance);

@@ -3,6 +3,7 @@
 // Headers that most tests need; also their precompiled header.
 
 #include <doctest/doctest.h>
+#include <stdlib.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -39,11 +40,37 @@
 #include "core/units.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/approx.h"
-#include "support/sanitized.h"
 #include "support/shapes.h"
-#include "support/temporary_folder.h"
 
 namespace sonarsim::test {
+
+/// True in builds with a sanitizer. They are some twenty times slower, so tests about figures,
+/// whose code other tests cover, are left to other builds.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool sanitized = true;
+#elif defined(__has_feature)
+inline constexpr bool sanitized =
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+/// A temporary folder for a test, removed with all its contents.
+struct TemporaryFolder {
+    std::filesystem::path path;
+
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "sonarsim-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
+        path = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
 
 /// The values as text, for messages.
 template <class... Values>

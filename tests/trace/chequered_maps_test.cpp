@@ -200,8 +200,7 @@ TEST_CASE("the pieces of a sample tile it, and have its area") {
     const Sonar sonar = imaging(ModelKind::paper);
     const Pose pose = sensor_pose(sonar, above_floor(), 0);
     for (const EngineKind type : engine_types) {
-        const auto engine = engine_of(scene, type);
-        const Samples whole = engine->visible_surface(sonar.settings.view, pose);
+        const Samples whole = engine_of(scene, type)->visible_surface(sonar.settings.view, pose);
         Samples cut = whole;
         apply_maps(*scene.maps, sonar.settings.view, pose, cut);
         CHECK(cut.items.size() > whole.items.size());

@@ -22,10 +22,8 @@ Scene rough_seafloor() {
 
 /// A corner of two walls.
 Scene corner() {
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.6F);
-    add_rectangle(scene, {0, 2, -3}, {5, 2, 3}, m);
-    add_rectangle(scene, {5, -9, -3}, {5, 2, 3}, m);
+    Scene scene = rectangle_scene({0, 2, -3}, {5, 2, 3}, 0.6F);
+    add_rectangle(scene, {5, -9, -3}, {5, 2, 3}, 0);
     return scene;
 }
 
@@ -167,10 +165,8 @@ TEST_CASE("rounding hides nothing, wherever the sonar is and however large the t
     // an axis, where there would be less to round.
     const Eigen::Quaterniond R = rotation_from_rpy(0.3, -0.2, 0.5);
     const auto bounces = [&](const Eigen::Vector3d& at, float size, int turn) {
-        Scene scene = empty_scene();
-        const std::uint32_t m = add_material(scene, 0.6F);
-        add_rectangle(scene, {5 - size, 2, -size}, {5, 2, size}, m);
-        add_rectangle(scene, {5, 2 - size, -size}, {5, 2, size}, m);
+        Scene scene = rectangle_scene({5 - size, 2, -size}, {5, 2, size}, 0.6F);
+        add_rectangle(scene, {5, 2 - size, -size}, {5, 2, size}, 0);
         for (Eigen::Vector3f& p : scene.vertices)
             p = (R * p.cast<double>() + at).cast<float>();
         const Pose pose{R * rotation_from_rpy(0.2, -0.1, radians(-20.0 + 12.0 * turn)), at};

@@ -60,11 +60,8 @@ TEST_CASE("multipath between two perpendicular walls") {
     // its direction. The other way round the same with x and y exchanged.
     constexpr double a = 2.0;
     constexpr double b = 5.0;
-    Scene scene = empty_scene();
-    const std::uint32_t port = add_material(scene, 0.5F);
-    const std::uint32_t front = add_material(scene, 0.8F);
-    add_rectangle(scene, {0, a, -3}, {b, a, 3}, port);
-    add_rectangle(scene, {b, -9, -3}, {b, a, 3}, front);
+    Scene scene = rectangle_scene({0, a, -3}, {b, a, 3}, 0.5F);
+    add_rectangle(scene, {b, -9, -3}, {b, a, 3}, add_material(scene, 0.8F));
     const View view = fan(100.0, 12.0);
     const auto is_on_port = [](const Eigen::Vector3d& at) { return at.x() < b - 1e-3; };
     const auto image_source = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {

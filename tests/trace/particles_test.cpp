@@ -6,11 +6,7 @@
 namespace {
 
 Particle particle_at(double x, double y, double z) {
-    Particle particle;
-    particle.start_m = {x, y, z};
-    particle.velocity_m_s = Eigen::Vector3d::Zero();
-    particle.section_m2 = 0.25F;
-    return particle;
+    return {.start_m = {x, y, z}, .velocity_m_s = {0.0, 0.0, 0.0}, .section_m2 = 0.25F};
 }
 
 const View wide_fan{radians(90.0), radians(20.0), 0.5, 20.0, 100, 32, 0.03};

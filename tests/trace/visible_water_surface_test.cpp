@@ -93,8 +93,7 @@ TEST_CASE("water's surface: what hides it, and a sonar above it") {
     add_floor(scene, 50.0F, 3.0F, 0);
     const View view = view_to_surface(ViewShape::fan, 60.0, 40.0);
     CHECK(area_between(scene, view, {}, 0.0, 40.0) == 0.0);
-    const Pose above = pitched(-90.0, {0.0, 0.0, 6.0});
-    CHECK(area_between(scene_below(), view, above, 0.0, 40.0) == 0.0);
+    CHECK(area_between(scene_below(), view, pitched(-90.0, {0.0, 0.0, 6.0}), 0.0, 40.0) == 0.0);
 }
 
 TEST_CASE("water surface: the second bottom echo of an echosounder") {

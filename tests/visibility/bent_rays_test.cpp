@@ -49,9 +49,8 @@ const Pose bent_pose = pitched(25.0);
 TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
     // The apparent range is 1480 m/s times the time; the true incidence has the cosine -sin b.
     const Scene scene = floor_under(bent_gradient);
-    const auto engine = engine_of(scene, EngineKind::rays);
     const View view = bent_view();
-    const Samples samples = engine->visible_surface(view, bent_pose);
+    const Samples samples = engine_of(scene, EngineKind::rays)->visible_surface(view, bent_pose);
     REQUIRE(samples.items.size() > 1000);
     for (const Sample& sample : samples.items) {
         const Eigen::Vector3d p = sample.position.cast<double>();

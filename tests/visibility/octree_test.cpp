@@ -17,10 +17,8 @@ TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
 }
 
 TEST_CASE("octree: the first cluster of leaves hides what is more than four leaves behind it") {
-    Scene scene = empty_scene();
-    const auto steel = add_material(scene, 0.9F);
+    Scene scene = rectangle_scene({3, -0.6F, -0.6F}, {3, 0.6F, 0.6F}, 0.9F);
     const auto wall = add_material(scene, 0.5F);
-    add_rectangle(scene, {3, -0.6F, -0.6F}, {3, 0.6F, 0.6F}, steel);
     // At the plate a pixel is at least as large as a leaf, so that none is empty.
     const View view{radians(60.0), radians(60.0), 0.5, 5.0, 100, 60, 0.03};
     for (const float behind : {0.12F, 1.0F}) {

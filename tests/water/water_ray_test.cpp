@@ -193,8 +193,7 @@ TEST_CASE("a place by range and direction, and level rays at a node end") {
     CHECK(std::fabs(far.z() + 50.0) < 0.5);
 }
 
-TEST_CASE(
-    "water ray: apparent places are the inverse of true ones, with the spread of their rays") {
+TEST_CASE("water ray: apparent places are the inverse of true ones, with their rays' spread") {
     // In a constant gradient g a ray of the elevation a, cos(a) / c constant, has gone the distance
     // c (sin a - sin b) / (g cos a) where its elevation is b. Sound that spreads over W X / cos(a)
     // for each solid angle, W = |dX / da sin b| at one height, has the power of range^2 by that,

@@ -132,8 +132,7 @@ TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit
         REQUIRE(moved.vertices.size() == scene.vertices.size());
         for (std::size_t i = 0; i < scene.vertices.size(); ++i)
             CHECK(moved.vertices[i] == scene.vertices[i]);
-        const Eigen::Vector3d moved_by = moved.origin - scene.origin;
-        check_point(moved_by, shift, -2 * shift, -shift, 0.0);
+        check_point(moved.origin - scene.origin, shift, -2 * shift, -shift, 0.0);
     }
     // Extent 60 m: g = 100. The centre (500060, 4800070, 45) goes to (500100, 4800100, 0).
     GltfBuilder small = one_triangle();
