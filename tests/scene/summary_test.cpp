@@ -34,6 +34,7 @@ TEST_CASE("summary: vertices that floats have rounded") {
     GltfBuilder gltf = one_triangle();
     CHECK(describe_scene(load(gltf)).find("rounding") == std::string::npos);
     gltf.points({{0, 0, -4.8e6F}, {8, 0, -4.8e6F}, {0, 8, -4.8e6F}}, "sand");
+    gltf.document["nodes"].erase(0);
     CHECK(describe_scene(load(gltf))
               .find("\nrounding   0.250 m, since vertices lie far from "
                     "the origin of their file or node\n") != std::string::npos);

@@ -63,6 +63,36 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
           }) < 0.01);
 }
 
+TEST_CASE("a sphere agrees with its closed form") {
+    // Centre on the boresight at distance D, radius a. At slant range r the incidence is the same
+    // all round the ring: with cos alpha = (D^2 + a^2 - r^2) / (2 D a),
+    // v . n = (D cos alpha - a) / r. It falls to 0 at the horizon, r = sqrt(D^2 - a^2).
+    constexpr float R = 0.9F;
+    constexpr double D = 4.0;
+    constexpr double a = 0.403;
+    Scene scene = empty_scene();
+    add_sphere(scene, {D, 0, 0}, a, add_material(scene, R), 512);
+    SonarConfig config = small_imaging();
+    config.azimuth_deg = 20.0;
+    config.elevation_deg = 20.0;
+    set_range(config, 3.5, 4.1, 60);
+    const Sonar sonar = noise_free(config, 0.01);
+    const Ping ping = look(scene, sonar, Pose{});
+    const int first_bin = bin_at(sonar, D - a);
+    const int last_bin = bin_at(sonar, std::sqrt(D * D - a * a));
+    CHECK(relative_l1(ping, [&](int i, int j) {
+              const bool inside = i >= first_bin && i < last_bin - 1 && ping.at(i, j) > 0.0F;
+              if (!inside) return -1.0;
+              const double r = bin_centre(sonar, i);
+              return R * ((D * D + a * a - r * r) / (2.0 * a) - a) / r;
+          }) < 0.01);
+    for (int j = 0; j < ping.beams; ++j) {
+        CHECK(ping.at(first_bin - 1, j) == 0.0F);
+        // At the horizon the surface runs along the ray; a bin more or less is the sampling's.
+        CHECK(ping.at(last_bin + 2, j) == 0.0F);
+    }
+}
+
 TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
     const Scene scene = tank();
     const Pose pose = pitched(12.0, {-3.0, 0.0, 1.5});

@@ -112,7 +112,8 @@ PingNumbers numbers_of(const Sonar& sonar, std::vector<T> image, T blank) {
         return {record_values(kind.record, sonar.config, image, blank),
                 {kind.record.values(sonar.config)}};
     const auto beams = static_cast<std::size_t>(sonar.settings.view.beams);
-    return {std::move(image), {image.size() / beams, beams}};
+    const std::size_t rows = image.size() / beams;
+    return {std::move(image), {rows, beams}};
 }
 /// The numbers as the bytes of a record.
 inline std::string record_bytes(const PingNumbers& numbers) {

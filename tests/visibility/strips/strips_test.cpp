@@ -94,6 +94,15 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
     }
 }
 
+TEST_CASE("strips: a sphere fills the solid angle that it should") {
+    // 2 pi (1 - cos) of the cone that touches it: sin = R / D.
+    Scene scene = empty_scene();
+    add_sphere(scene, {5, 0, 0}, 0.5F, add_material(scene, 0.5F), 256);
+    const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
+    for (const View& view : {fan_view(), cone_of_strips()})
+        CHECK(filled_sr(visible(scene, view)) / expected == approx(1.0).epsilon(0.01));
+}
+
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
     Scene scene = empty_scene();
     add_sphere(scene, {0, 0, 0}, 3.0F, add_material(scene, 0.5F), 128);
