@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.h"
 #include "input/mission/limits.h"
 
 // The keys of a trajectory, of the vehicle or of a moving object, as in mission.h.
