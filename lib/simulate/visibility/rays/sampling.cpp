@@ -61,9 +61,10 @@ Sampling sampling_for(const View& view) {
             break;
         case ViewShape::cone:
             // A cone is one row of bins, and a small object may be alone in its bin. The sampling
-            // about the boresight is not refined.
-            sampling.columns = rays(96.0, 8.0);
-            sampling.rays = rays(36.0, 4.0);
+            // about the boresight is not refined. With 96 x 36 rays the multipath of energies over
+            // a wreck is 4.5 % off.
+            sampling.columns = rays(view.energies_add ? 192.0 : 96.0, 8.0);
+            sampling.rays = rays(view.energies_add ? 50.0 : 36.0, 4.0);
             break;
     }
     // An edge strip shows whether a bin has any surface; a sum of energies needs its area, and ten
