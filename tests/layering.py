@@ -36,7 +36,7 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "labels": "core scene visibility trace ping",
     "product": "core mission trace ping labels",
     "sonar": "core mission visibility paper calibrated ping product",
-    "assembly": "core mission scene trajectory visibility trace calibrated ping product sonar",
+    "assembly": "core mission water scene trajectory visibility trace calibrated ping product sonar",
     "reference": "core scene visibility trace ping",
     "format": "core",
     "dataset": "core mission scene trajectory calibrated ping labels product sonar assembly format",
