@@ -68,7 +68,8 @@ constexpr WarningText table[] = {
      "lower output.full_scale ({2:.4g})", "the brightest pixel below grey level 16 of 255"},
     {WarningCode::hidden_object, "{0:s} by any of the pings that were tried: {1:s}", "{2:s}",
      "an object with a name or a class that none of four pings of each sonar sees, or below 5 mm; "
-     "the tested pings look at it most directly, and the first 200 objects are tested"},
+     "the tested pings look at it most directly, and the first 200 objects are tested, without a "
+     "bed's rocks"},
     {WarningCode::memory,
      "a ping takes about {0:.2g} GB of memory, {1} at once {2:.2g} GB, and there are {3:.2g} GB",
      "lower {4:s}; with fewer threads (render -j) it takes less",
