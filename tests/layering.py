@@ -55,7 +55,7 @@ PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["encode_ping"]],
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
-            ["run_job", "ping_source"], ["variants"], ["merge", "status", "verify"]],
+            ["run_job", "ping_source"], ["variants"], ["dataset_folders"], ["merge", "status", "verify"]],
     "calibrated": [["signal/"], ["equation/"], ["beams/", "speckle/"], ["receiver/"], ["*"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]],

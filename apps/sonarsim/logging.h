@@ -42,7 +42,7 @@ std::string warning_line(const LogOptions& options, const std::string& message);
 /// A line of a result for people: "mission     hull". Control characters are masked.
 std::string result_line(std::string_view head, const std::string& rest);
 
-/// Prints it.
+/// Prints a result_line().
 void print_result(std::string_view head, const std::string& rest);
 
 /// A duration as text: "12 s", "3 min 20 s", "2 h 5 min".

@@ -87,7 +87,7 @@ int report(const ReportArguments& arguments) {
     Report result = make_report(mission, assembly, settings, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
     progress("the job with labels and files");
-    result.job = measure_job(whole, result.rows.front()["ms_131k_rays"], options);
+    result.job = measure_job(whole, result.rows.front().at("ms_131k_rays"), options);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));

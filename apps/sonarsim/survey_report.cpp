@@ -146,16 +146,19 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
         fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
     const std::optional<PingError> worst = error->worst();
     if (!worst) return result_line("", "error " + limit);
-    std::vector<PingError> measured = error->pings;
-    std::erase_if(measured, [](const PingError& ping) { return !ping.relative_l1; });
+    const auto is_measured = [](const PingError& ping) { return ping.relative_l1.has_value(); };
+    const auto measured = std::ranges::count_if(error->pings, is_measured);
     std::string text =
         fmt::format("error {} % on average and {} % at worst in {} pings, goal {} %",
                     short_text(100.0 * *error->mean()), short_text(100.0 * *worst->relative_l1),
-                    measured.size(), short_text(100.0 * goal, 4));
-    if (const auto count = std::ranges::count_if(measured, &PingError::by_finer_image); count > 0)
-        text += fmt::format("; {} by the change to a finer goal", count);
+                    measured, short_text(100.0 * goal, 4));
+    const auto by_finer_image = std::ranges::count_if(error->pings, [&](const PingError& ping) {
+        return is_measured(ping) && ping.by_finer_image;
+    });
+    if (by_finer_image > 0)
+        text += fmt::format("; {} by the change to a finer goal", by_finer_image);
     if (unknown > 0.0)
-        text += fmt::format("; in {} more it {}", error->pings.size() - measured.size(), limit);
+        text += fmt::format("; in {} more it {}", std::ssize(error->pings) - measured, limit);
     return result_line("", text);
 }
 

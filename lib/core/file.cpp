@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -131,7 +132,10 @@ StreamedFile::StreamedFile(const std::filesystem::path& path)
 
 void StreamedFile::append(std::string_view bytes) {
     constexpr std::size_t max_pending = std::size_t{1} << 16;
-    if (pending_.size() + bytes.size() > max_pending) put(std::exchange(pending_, {}));
+    if (pending_.size() + bytes.size() > max_pending) {
+        put(pending_);
+        pending_.clear();
+    }
     if (bytes.size() > max_pending)
         put(bytes);
     else
@@ -159,33 +163,54 @@ void require_no_link(const std::filesystem::path& path, const std::string& what)
                                           "or choose another output folder");
 }
 
+namespace {
+
+/// A regular file that is no link, open for reading.
+class RegularFile {
+  public:
+    explicit RegularFile(const std::filesystem::path& path)
+        : where_{path.string()}, file_(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW) {
+        struct stat status {};
+        if (file_.get() < 0 || ::fstat(file_.get(), &status) != 0) refuse();
+        if (!S_ISREG(status.st_mode)) throw InputError(where_, "is not a regular file");
+        end_ = static_cast<std::size_t>(status.st_size);
+    }
+
+    std::string read(std::size_t offset, std::size_t size) const {
+        std::string bytes(std::min(size, end_ - std::min(offset, end_)), '\0');
+        const auto got = move_all(bytes.size(), [&](std::size_t done) {
+            return ::pread(file_.get(), bytes.data() + done, bytes.size() - done,
+                           static_cast<off_t>(offset + done));
+        });
+        if (!got) refuse();
+        bytes.resize(*got);
+        return bytes;
+    }
+
+  private:
+    [[noreturn]] void refuse() const {
+        throw InputError(where_, errno == ELOOP
+                                     ? "is a symbolic link; put the file itself in its place"
+                                     : "cannot be read: " + reason());
+    }
+
+    Location where_;
+    Descriptor file_;
+    std::size_t end_ = 0;
+};
+
+}  // namespace
+
 std::string read_bytes(const std::filesystem::path& path, std::size_t offset, std::size_t size) {
-    const Location where{path.string()};
-    const auto refuse = [&] {
-        throw InputError(where, errno == ELOOP
-                                    ? "is a symbolic link; put the file itself in its place"
-                                    : "cannot be read: " + reason());
-    };
-    const Descriptor file(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW);
-    struct stat status {};
-    if (file.get() < 0 || ::fstat(file.get(), &status) != 0) refuse();
-    if (!S_ISREG(status.st_mode)) throw InputError(where, "is not a regular file");
-    const auto end = static_cast<std::size_t>(status.st_size);
-    std::string bytes(std::min(size, end - std::min(offset, end)), '\0');
-    const auto got = move_all(bytes.size(), [&](std::size_t done) {
-        return ::pread(file.get(), bytes.data() + done, bytes.size() - done,
-                       static_cast<off_t>(offset + done));
-    });
-    if (!got) refuse();
-    bytes.resize(*got);
-    return bytes;
+    return RegularFile(path).read(offset, size);
 }
 
 void copy_regular_file(const std::filesystem::path& from, const std::filesystem::path& to) {
     constexpr std::size_t piece = std::size_t{1} << 20;
-    std::string bytes = read_bytes(from, 0, piece);
+    const RegularFile source(from);
+    std::string bytes = source.read(0, piece);
     StreamedFile target(to);
-    for (std::size_t at = 0; !bytes.empty(); bytes = read_bytes(from, at, piece)) {
+    for (std::size_t at = 0; !bytes.empty(); bytes = source.read(at, piece)) {
         target.append(bytes);
         at += bytes.size();
     }

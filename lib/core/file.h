@@ -112,8 +112,8 @@ class StreamedFile {
     std::string pending_;  ///< buffer, since lines are appended by the thousand
 };
 
-// For folders that anybody may have filled: what a link in them names may be private, or not
-// theirs.
+// The next three are for folders that anybody may have filled: what a link in them names may be
+// private, or not theirs.
 
 /// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
 void require_no_link(const std::filesystem::path& path, const std::string& what);

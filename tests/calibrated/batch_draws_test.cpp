@@ -1,7 +1,7 @@
 #include "core/lanes.h"
 #include "core/random.h"
 #include "simulate/calibrated/signal/echo_grid.h"
-#include "simulate/calibrated/signal/filtered_noise.h"
+#include "simulate/calibrated/signal/normals.h"
 #include "simulate/calibrated/speckle/speckle.h"
 #include "support/test.h"
 

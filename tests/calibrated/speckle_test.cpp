@@ -1,7 +1,6 @@
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "support/draws.h"
-
 #include "support/statistics.h"
 
 namespace {

@@ -1,5 +1,6 @@
 """sonarsim.data: opens what sonarsim writes, with numpy alone and without the compiled module. That every
 kind of file is read: test_python.py."""
+import json
 import os
 import re
 import shutil
@@ -115,7 +116,11 @@ class Reader(Sandbox):
         self.assertIn("1: 'W\u00e4nde'", result.stdout)
 
     def test_variants(self):
-        """Those that are there: test_python.py."""
+        for k in range(2):
+            shutil.copytree(self.out, self.folder / f"many/variant_{k:04}")
+        names = ["variant_0000", "variant_0001"]
+        self.write("many/variants.json", json.dumps({"variants": [{"folder": name} for name in names]}))
+        self.assertEqual([one.folder.name for one in sonarsim_data.open_datasets(self.folder / "many")], names)
         self.write("many/variants.json", '{"variants": [{"folder": "../many/variant_0000"}]}')
         with self.assertRaisesRegex(ValueError, "is not a name that sonarsim gives"):
             sonarsim_data.open_datasets(self.folder / "many")

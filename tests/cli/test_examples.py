@@ -38,6 +38,7 @@ class Examples(Clone):
             made = re.search(r"generated/(\w+)|\bstock: ", path.read_text())
             if path.stem != FROM_A_PACKAGE or PACKAGE.exists() and shutil.which("assimp"):
                 groups.setdefault(made[1] or "stock" if made else path.stem, []).append(path.stem)
+        self.assertGreater(sum(map(len, groups.values())), 30)
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             for faults in pool.map(self.render_group, sorted(groups.values(), key=len, reverse=True)):
                 self.assertEqual(faults, {})

@@ -171,12 +171,16 @@ def run(folder, threads=2):
         limit_memory()
 
     start = time.monotonic()
-    try:
-        done = subprocess.run([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True, preexec_fn=limit,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=LONGEST_S)
-    except subprocess.TimeoutExpired as fault:
-        return None, str(fault.stderr), LONGEST_S
-    return done.returncode, done.stderr, time.monotonic() - start
+    with subprocess.Popen([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limit) as process:
+        try:
+            _, stderr = process.communicate(timeout=LONGEST_S)
+            code = process.returncode
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGTERM)
+            _, stderr = process.communicate(timeout=60)
+            code = None
+    return code, stderr, time.monotonic() - start
 
 
 def check(folder):

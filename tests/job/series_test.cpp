@@ -6,7 +6,6 @@
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/images.h"
-
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 

@@ -113,6 +113,7 @@ TEST_CASE("annotations: a shadow begins at the surface that casts it") {
     const double bin_m = found.sonar.settings.view.bin_m();
     const double begin_m = found.sonar.range_edges_m[found.object(2).shadow.first_bin];
     CHECK(begin_m > 5.0 - 0.5 * bin_m);
+    CHECK(begin_m < 5.2);
     int before = 0;
     for (std::size_t k = 0; k < found.labels.size(); ++k) {
         const double end_m = found.sonar.range_edges_m[k % found.labels.range_bins + 1];

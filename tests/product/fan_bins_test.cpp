@@ -1,6 +1,4 @@
 #include "simulate/product/fan.h"
-
-#include "simulate/product/fan.h"
 #include "support/sonars.h"
 
 namespace {

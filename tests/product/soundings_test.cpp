@@ -152,12 +152,12 @@ TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
     std::uniform_int_distribution<int> tenths(-200, 200);
     for (const double cell_m : {0.1, 0.3, 0.5, 1.0, 2.0}) {
         std::vector<Eigen::Vector3d> points;
-        SoundingBounds bounds;
+        GroundBounds bounds;
         for (int k = 0; k < 50; ++k) {
             points.emplace_back(0.1 * tenths(random), 0.1 * tenths(random), -1.0);
             bounds.add(points.back());
         }
-        Bathymetry grid = make_bathymetry(bounds, cell_m);
+        GroundGrid grid = make_ground_grid(bounds, cell_m);
         for (const Eigen::Vector3d& point : points)
             grid.add(point);
         CHECK(total(grid.weight) == points.size());
@@ -167,10 +167,10 @@ TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
 }
 
 TEST_CASE("bathymetry: the picture of a long and narrow map shows its cells") {
-    SoundingBounds bounds;
+    GroundBounds bounds;
     bounds.add({0.5, 0.5, 0});
     bounds.add({9999.5, 1.5, 0});
-    Bathymetry grid = make_bathymetry(bounds, 1.0);
+    GroundGrid grid = make_ground_grid(bounds, 1.0);
     for (int x = 0; x < 10000; ++x) {
         for (const double y : {0.5, 1.5})
             grid.add({x + 0.5, y, -10.0 - 0.001 * x});
@@ -182,37 +182,37 @@ TEST_CASE("bathymetry: the picture of a long and narrow map shows its cells") {
 }
 
 TEST_CASE("bathymetry: cells suit the soundings, and never are too many") {
-    SoundingBounds bounds;
+    GroundBounds bounds;
     bounds.add({0, 0, 0});
     bounds.add({40, 20, 0});
     bounds.count = 32'000;  // 4 * 800 m^2 / 32000 = 0.1 m^2: cells of 0.32 m, rounded up
-    CHECK(make_bathymetry(bounds, 0.0).cell_m == 0.5);
-    CHECK(make_bathymetry({}, 0.0).columns == 0);
-    const Bathymetry held =
-        make_bathymetry(bounds, 5e-324);  // the finest that a mission can ask for
+    CHECK(make_ground_grid(bounds, 0.0).cell_m == 0.5);
+    CHECK(make_ground_grid({}, 0.0).columns == 0);
+    const GroundGrid held =
+        make_ground_grid(bounds, 5e-324);  // the finest that a mission can ask for
     CHECK(held.cell_m > 1e-3);
     CHECK(static_cast<double>(held.columns) * held.rows <= 1 << 24);
-    SoundingBounds point;
+    GroundBounds point;
     point.add({3, 4, 5});
-    CHECK(make_bathymetry(point, 0.0).columns == 1);
+    CHECK(make_ground_grid(point, 0.0).columns == 1);
 }
 
 TEST_CASE("bathymetry: cells of any size, anywhere, have a picture") {
     // 1e-3F is below the step of float there: heights from low to low + 1e-3F would be empty.
     for (const double far : {1e5, 1e7, 1e8, -1e8}) {
-        SoundingBounds bounds;
+        GroundBounds bounds;
         bounds.add({far, far, far});
-        Bathymetry grid = make_bathymetry(bounds, 1.0);
+        GroundGrid grid = make_ground_grid(bounds, 1.0);
         grid.add({far, far, far});
         REQUIRE(grid.weight[0] == 1.0);
         CHECK(draw_bathymetry(grid).width > 0);
     }
     // 0.4 * 0.05 is above 0.02 in doubles: halving the bar that way never ended.
     for (double cell_m = 1e-3; cell_m < 1e3; cell_m *= 1.07) {
-        SoundingBounds bounds;
+        GroundBounds bounds;
         bounds.add({0, 0, 0});
         bounds.add({cell_m, 0, 0});
-        CHECK(draw_bathymetry(make_bathymetry(bounds, cell_m)).width > 0);
+        CHECK(draw_bathymetry(make_ground_grid(bounds, cell_m)).width > 0);
     }
     for (const double cell_m : {0.0685851289138515, 0.05, 0.5})
         CHECK(round_down_125(cell_m) <= cell_m);

@@ -153,11 +153,11 @@ class Mutations(tool.ToolTest):
             shutil.rmtree(self.folder / "e", ignore_errors=True)
 
     def test_any_value(self):
-        self.render_tank("in", "trajectory.rate_hz=0.5")
+        self.render_tank("in", "trajectory.rate_hz=1")
         source, draw = self.folder / "in", random.Random(3)
         names = ["dataset.json", *(str(path.relative_to(source)) for path in sorted(source.rglob("*/*.json")))]
         self.run_tools(source, TOOLS)
-        for k in range(40):
+        for k in range(80):
             name = names[0] if draw.random() < 0.7 else draw.choice(names)
             sound = (source / name).read_text()
             content = json.loads(sound)

@@ -143,7 +143,7 @@ class InBrowser(Gallery):
 @unittest.skipUnless("SONARSIM" in os.environ, "no program to render with")
 class Rendered(Gallery):
     def test_every_sonar_of_a_rendered_dataset_has_its_objects(self):
-        self.render_tank("out", "trajectory.rate_hz=3")
+        self.render_tank("out", "trajectory.rate_hz=3", "sensors.head.step_deg=40")     # two sweeps
         self.write_page()
         about = json.loads(json.loads((self.out / "index_files/0.js").read_text()[len('take("0",'):-2]))
         self.assertEqual([sensor["name"] for sensor in about["sensors"]], ["sss", "sounder", "head", "fls"])

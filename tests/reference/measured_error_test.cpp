@@ -15,6 +15,7 @@ Mission one_sensor() {
     mission.sensors.resize(1);
     return mission;
 }
+
 std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int threads) {
     const Assembly assembly = small_assembly(mission, 7);
     tbb::task_arena arena(threads);

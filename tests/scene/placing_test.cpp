@@ -56,6 +56,7 @@ Surface box(double x, double y, double z) {
                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
     return out;
 }
+
 /// The plane z = a x + b y, |x|, |y| <= half_m.
 Surface plane(double half_m, double a, double b) {
     Surface out;

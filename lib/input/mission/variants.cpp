@@ -128,7 +128,7 @@ DrawnValues Variants::drawn_of(const std::vector<std::string>& values) const {
     return drawn;
 }
 
-/// Sets the first values of drawn_of().
+/// Sets values that drawn_of() gave, its first or all.
 void Variants::set_drawn(YamlNode& root, const DrawnValues& drawn) const {
     for (std::size_t i = 0; i < drawn.size(); ++i)
         set_text(root, drawn[i].first, drawn[i].second, mission_.vary[order_[i]].place);

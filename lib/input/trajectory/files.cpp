@@ -49,12 +49,12 @@ std::string in_short_quotes(std::string_view field) {
 }
 
 double field_value(std::string_view field, const Column& column, const Location& where) {
-    const std::string cell = std::string(column.name) + ": " + in_short_quotes(field);
+    const auto cell = [&] { return std::string(column.name) + ": " + in_short_quotes(field); };
     const std::optional<double> value = parse_number(field);
-    if (!value) throw InputError(where, cell + " is not a number");
-    if (!std::isfinite(*value)) throw InputError(where, cell + " is not a finite number");
+    if (!value) throw InputError(where, cell() + " is not a number");
+    if (!std::isfinite(*value)) throw InputError(where, cell() + " is not a finite number");
     if (std::fabs(*value) <= column.limit) return *value;
-    throw InputError(where, cell + " is beyond " + number_text(column.limit) +
+    throw InputError(where, cell() + " is beyond " + number_text(column.limit) +
                                 "; the column's name gives the unit");
 }
 

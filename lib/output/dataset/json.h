@@ -36,7 +36,7 @@ Json describe_box(const PixelBox& box);
 /// Position in metres; quaternion as x, y, z, w.
 Json describe_pose(const Pose& pose);
 
-/// Rounded to a part of 1; null for none.
+/// Rounded to multiples of 1 / `parts`; null for none.
 Json rounded(const std::optional<double>& value, double parts);
 
 /// JSON as it is written: indented, with a line feed at the end.

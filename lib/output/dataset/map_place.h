@@ -21,7 +21,7 @@ inline Eigen::Vector2d map_origin(const Mission& mission) {
 /// place and the keys of `tail`. The place is in the coordinates of the scene's heightmap, if there
 /// is one, else in those of the world.
 inline void write_map(const WriterContext& context, const std::filesystem::path& folder,
-                      const std::string& name, const Bathymetry& map, std::vector<float> values,
+                      const std::string& name, const GroundGrid& map, std::vector<float> values,
                       Json head, const Json& tail) {
     // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
     if (values.empty()) values.push_back(std::nanf(""));

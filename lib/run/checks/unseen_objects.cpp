@@ -37,10 +37,15 @@ bool is_wanted(const Mission& mission, const Scene& scene, std::size_t instance)
     const std::string& name = scene.instances[instance];
     const std::string class_name =
         instance < scene.instance_classes.size() ? scene.instance_classes[instance] : "";
-    if (mission.scene.seabed && class_name == rock_class && name.starts_with("rock_")) return false;
-    if (!class_name.empty()) return true;
-    return std::ranges::any_of(mission.scene.objects,
-                               [&](const ObjectConfig& object) { return object.name == name; });
+    const bool is_object = std::ranges::any_of(
+        mission.scene.objects, [&](const ObjectConfig& object) { return object.name == name; });
+    const bool is_scattered = std::ranges::any_of(
+        mission.scene.scatter,
+        [&](const ScatterConfig& rule) { return name.starts_with(rule.name + "_"); });
+    const bool has_rocks = mission.scene.seabed && mission.scene.seabed->rocks;
+    if (has_rocks && class_name == rock_class && name.starts_with("rock_"))
+        return is_object || is_scattered;
+    return is_object || !class_name.empty();
 }
 
 /// One for each instance, wherever its triangles are kept; empty if it has none.

@@ -79,6 +79,7 @@ std::vector<fs::path> temporary_files(const fs::path& folder) {
 /// The temporary files in the folder of a dataset and in the folders that are its own.
 std::vector<fs::path> leftovers(const fs::path& folder, const Json& description) {
     std::vector<fs::path> found = temporary_files<fs::directory_iterator>(folder);
+    if (description.empty()) return found;
     for (const std::string& name : own_names(description)) {
         if (fs::is_symlink(folder / name)) continue;
         const auto inner = temporary_files<fs::recursive_directory_iterator>(folder / name);

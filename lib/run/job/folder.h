@@ -76,7 +76,8 @@ FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles&
 void write_common_files(const Layout& layout, const CommonFiles& files);
 
 /// Removes the temporary files that interrupted runs left in a folder, and in those in it that
-/// `description` (dataset.json) names. Nobody may be at work there.
+/// `description` (dataset.json) names. Nothing if there is no such folder. Nobody may be at work
+/// there.
 void remove_leftovers(const std::filesystem::path& folder,
                       const Json& description = Json::object());
 

@@ -36,7 +36,7 @@ void paste(Picture& picture, const Picture& part, int x, int y);
 /// The mapping of a plane to a tile: metres to pixels, with the same scale on both axes and margins
 /// for the numbers of the axes.
 struct PlaneFrame {
-    int left = 0;  ///< plot in a tile, from its upper edge on, px
+    int left = 0;  ///< left edge of the plot, whose top is that of the tile, px
     int plot_width = 0;
     int plot_height = 0;
     Eigen::Vector2d low;  ///< at the lower left corner of the plot, m

@@ -154,11 +154,11 @@ Json row_of(const std::string& sensor, const Setting& setting, const Trial& tria
 void mark_front(std::vector<Json>& rows) {
     for (Json& row : rows) {
         row["on_front"] = std::ranges::none_of(rows, [&](const Json& other) {
-            const bool as_fast = other["ms_per_ping"] <= row["ms_per_ping"];
-            const bool as_accurate = other["relative_l1"] <= row["relative_l1"];
+            const bool as_fast = other.at("ms_per_ping") <= row["ms_per_ping"];
+            const bool as_accurate = other.at("relative_l1") <= row["relative_l1"];
             return as_fast && as_accurate &&
-                   (other["ms_per_ping"] < row["ms_per_ping"] ||
-                    other["relative_l1"] < row["relative_l1"]);
+                   (other.at("ms_per_ping") < row["ms_per_ping"] ||
+                    other.at("relative_l1") < row["relative_l1"]);
         });
     }
 }

@@ -102,7 +102,7 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
                                        "that begins with it and _; choose another name");
 }
 
-/// Gives the targets of a group their material and instances, which the scene gets.
+/// Gives the targets of a group their material and instances, and adds these to the scene.
 void add_group(const ParticlesConfig& config, std::vector<DrawnParticle>& targets, Scene& scene) {
     require_new_name(config, scene);
     const bool is_single = static_cast<double>(targets.size()) < max_single_particles;

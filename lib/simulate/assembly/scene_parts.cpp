@@ -34,7 +34,10 @@ class LazyBottom {
         return !is_of_files() && &object == &scene_.objects.front();
     }
 
-    std::shared_ptr<const Bottom> share() const { return models_.bottom(file(), nodes()); }
+    const std::shared_ptr<const Bottom>& share() const {
+        if (!bottom_) bottom_ = models_.bottom(file(), nodes());
+        return bottom_;
+    }
     const Bottom& get() const { return *share(); }
 
     /// True if there is a bottom that does not move.
@@ -104,6 +107,7 @@ class LazyBottom {
     const SceneConfig& scene_;
     const std::optional<PlacedFile>& ground_;
     SceneStore& models_;
+    mutable std::shared_ptr<const Bottom> bottom_;  ///< kept from its first use on
 };
 
 /// The transform of an object, which may rest on the bottom.

@@ -5,7 +5,6 @@
 
 #include "simulate/calibrated/equation/patches.h"
 #include "simulate/calibrated/model.h"
-#include "simulate/calibrated/speckle/speckle.h"
 #include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
@@ -29,10 +28,5 @@ inline std::uint64_t find_echoes(SampleKind kind, const CalibratedModel& model,
     unit.materials.emplace_back().lambert = 1.0F;
     return apply_sonar_equation(pieces, unit, model.equation, echoes);
 }
-
-/// Adds the echoes of the water's volume to a grid. `gain`: as in draw_speckle(), for amplitudes.
-/// `mean`: a grid that receives their powers; null: none.
-void add_water(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               PowerForm form, float gain, EchoGrid& grid, EchoGrid* mean);
 
 }  // namespace sonarsim

@@ -30,9 +30,11 @@ Content content_of(WaterContent content) {
             return {power_of_db(-65.0), 20.0};
         case WaterContent::plume:
             return {power_of_db(-55.0), 0.0};
-        default:
-            return {};
+        case WaterContent::automatic:
+        case WaterContent::none:
+            break;
     }
+    return {};
 }
 
 double bell(double x) {

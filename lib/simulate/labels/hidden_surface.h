@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "input/scene/objects.h"

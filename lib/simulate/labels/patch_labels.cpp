@@ -19,7 +19,7 @@ double variance_at_one_range(const EchoPatch& patch) {
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
     // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by (dz - (z / r) dr)
-    // / r along an edge. Change in proportion to range does not spread at one.
+    // / r along an edge. The part in proportion to the range does not spread at one range.
     const double sine_u = (patch.edge_u.z() - d.z() * u) / range;
     const double sine_v = (patch.edge_v.z() - d.z() * v) / range;
     const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;

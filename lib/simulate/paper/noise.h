@@ -31,7 +31,7 @@ std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, P
 struct Streaks {
     StreakMode mode = StreakMode::none;
     float threshold = 0.0F;   ///< zeta, a share of area
-    float min_cosine = 1.0F;  ///< cosine of the largest normal incidence
+    float min_cosine = 1.0F;  ///< cosine of the largest angle that counts as normal
 
     bool exist() const { return mode != StreakMode::none; }
 };

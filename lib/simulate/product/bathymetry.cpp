@@ -48,7 +48,7 @@ struct Slope {
 };
 
 /// The slope at a cell, from its known neighbours.
-Slope slope_at(const Bathymetry& grid, const std::vector<float>& z, int row, int column) {
+Slope slope_at(const GroundGrid& grid, const std::vector<float>& z, int row, int column) {
     const float here = z[static_cast<std::size_t>(row) * grid.columns + column];
     const auto at = [&](int r, int c) {
         const bool inside = r >= 0 && r < grid.rows && c >= 0 && c < grid.columns;
@@ -61,7 +61,7 @@ Slope slope_at(const Bathymetry& grid, const std::vector<float>& z, int row, int
 }
 
 /// The vertical exaggeration of the shading, so that the RMS slope looks like 20 degrees.
-float stretch(const Bathymetry& grid, const std::vector<float>& z) {
+float stretch(const GroundGrid& grid, const std::vector<float>& z) {
     constexpr double typical = 0.36;
     double square = 0.0;
     double known = 0.0;
@@ -120,7 +120,7 @@ void draw_legend(Picture& picture, int left, int height, HeightRange range) {
 
 }  // namespace
 
-void Bathymetry::add(const Eigen::Vector3d& point, double more_weight) {
+void GroundGrid::add(const Eigen::Vector3d& point, double more_weight) {
     const double column = std::floor(point.x() / cell_m) - first_column;
     const double row = first_row - std::floor(point.y() / cell_m);
     if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return;
@@ -130,7 +130,7 @@ void Bathymetry::add(const Eigen::Vector3d& point, double more_weight) {
     sum[cell] += more_weight * point.z();
 }
 
-std::vector<float> Bathymetry::mean() const {
+std::vector<float> GroundGrid::mean() const {
     std::vector<float> means(sum.size(), std::numeric_limits<float>::quiet_NaN());
     for (std::size_t k = 0; k < sum.size(); ++k) {
         if (weight[k] > 0.0) means[k] = static_cast<float>(sum[k] / weight[k]);
@@ -138,8 +138,8 @@ std::vector<float> Bathymetry::mean() const {
     return means;
 }
 
-Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
-    Bathymetry grid;
+GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m) {
+    GroundGrid grid;
     if (bounds.count == 0) return grid;
     const Eigen::Vector2d size = bounds.box.sizes();
     const double area = std::max(size.x(), 1e-3) * std::max(size.y(), 1e-3);
@@ -161,7 +161,7 @@ Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
     return grid;
 }
 
-Picture draw_bathymetry(const Bathymetry& grid) {
+Picture draw_bathymetry(const GroundGrid& grid) {
     const std::vector<float> z = grid.mean();
     const HeightRange range = height_range(z);
     const float stretched = stretch(grid, z);

@@ -14,7 +14,7 @@ inline constexpr double map_quality = 0.5;
 inline constexpr double max_map_cells = 1 << 24;
 
 /// The ground that a map covers, and the number of its points.
-struct SoundingBounds {
+struct GroundBounds {
     Eigen::AlignedBox2d box;  ///< world x, y, m
     std::uint64_t count = 0;
 
@@ -24,10 +24,10 @@ struct SoundingBounds {
     }
 };
 
-/// Weighted means on a north-up grid, such as the heights of soundings: row 0 has the greatest y,
-/// column 0 the least x. Cells begin at multiples of their size, so that grids of one size fit
-/// together.
-struct Bathymetry {
+/// Weighted means on a north-up grid, the heights of soundings or the levels of side-scans: row 0
+/// has the greatest y, column 0 the least x. Cells begin at multiples of their size, so that grids
+/// of one size fit together.
+struct GroundGrid {
     double cell_m = 0.0;
     double west_m = 0.0;        ///< world x of the left edge
     double north_m = 0.0;       ///< world y of the upper edge
@@ -47,10 +47,10 @@ struct Bathymetry {
 /// An empty grid over the bounds. With `cell_m` 0 the cell size is 1, 2 or 5
 /// times a power of ten, chosen so that a cell has four evenly spread soundings on average. Cells
 /// are larger than the key says if the grid would exceed 2^24 cells.
-Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m);
+GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m);
 
 /// Draws the map: colours by depth, exaggerated relief shaded by light from the north-west, a scale
 /// bar and a legend. Cells without soundings are dark. At most 4,096 pixels a side.
-Picture draw_bathymetry(const Bathymetry& bathymetry);
+Picture draw_bathymetry(const GroundGrid& bathymetry);
 
 }  // namespace sonarsim

@@ -39,7 +39,8 @@ struct BinBox {
 struct LevelMap {
     int lines = 0, bins = 0;
     std::span<const std::uint16_t> object;  ///< the object in the bin; 0: none
-    std::span<const std::uint16_t> shadow;  ///< the object whose shadow it is; empty: no shadows
+    /// The object whose shadow it is; 0: none. Empty: no shadows.
+    std::span<const std::uint16_t> shadow;
     std::span<const float> level;
     bool full_turn = false;      ///< the last line is next to the first
     bool levels_by_bin = false;  ///< `level` is [bins, lines], as an image is

@@ -44,8 +44,8 @@ std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects);
 LevelMap level_map(const Sonar& sonar, const PingLabels& labels, const Ping& ping);
 
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
-/// `fan_boxes` are FanBins::boxes; empty: no fan. Its surroundings: the box of its bins and half
-/// its size, at least two bins, on each side.
+/// `fan_boxes` are FanBins::boxes; empty: no fan. An object's surroundings: the box of its bins
+/// and half its size, at least two bins, on each side.
 std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
                                           const TracedPing& traced, const PingLabels& labels,
                                           const Ping& ping, std::span<const PixelBox> fan_boxes);

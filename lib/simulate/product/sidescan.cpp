@@ -86,7 +86,7 @@ std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
         .reach_m = std::sqrt(std::max(0.0, range_max * range_max - *altitude * *altitude))};
 }
 
-void add_bounds(const Swath& swath, SoundingBounds& bounds) {
+void add_bounds(const Swath& swath, GroundBounds& bounds) {
     for (const double side : {-1.0, 1.0}) {
         const Eigen::Vector2d end = swath.nadir_m + side * swath.reach_m * swath.port;
         bounds.add({end.x(), end.y(), 0.0});
@@ -94,7 +94,7 @@ void add_bounds(const Swath& swath, SoundingBounds& bounds) {
 }
 
 void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row,
-                 Bathymetry& mosaic) {
+                 GroundGrid& mosaic) {
     constexpr double cos_10_degrees = 0.98480775301220806;
     const double cell_m = mosaic.cell_m;
     const bool is_near = before.swath.port.dot(row.swath.port) > cos_10_degrees &&

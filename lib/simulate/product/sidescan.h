@@ -22,7 +22,8 @@ struct Side {
 /// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
-/// The slant range of a column less its distance from nadir: range_min may be no multiple of a bin.
+/// The slant range of a column less its distance from nadir, at most half a bin to either side:
+/// range_min may be no multiple of a bin.
 double column_offset_m(const SonarConfig& config);
 
 int waterfall_columns(const SonarConfig& config);
@@ -46,7 +47,7 @@ struct Swath {
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
                               std::span<const float> row);
 
-void add_bounds(const Swath& swath, SoundingBounds& bounds);
+void add_bounds(const Swath& swath, GroundBounds& bounds);
 
 struct SwathRow {
     Swath swath;
@@ -60,6 +61,6 @@ struct SwathRow {
 /// swath's end, so that no line begins at a seam. Rows whose headings differ by 10 degrees, or that
 /// are ten cells apart, have no ground between them; the later one is added alone.
 void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row,
-                 Bathymetry& mosaic);
+                 GroundGrid& mosaic);
 
 }  // namespace sonarsim

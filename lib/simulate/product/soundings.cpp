@@ -67,7 +67,8 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
 
 /// Divides a beam by its background. This is the mean noise of the receiver, which the TVG raises
 /// with range, plus what the median bin has above it, such as water or side lobes. Undivided, noise
-/// at long range may be stronger than the bottom. Divided by noise alone, near water may be.
+/// at long range may be stronger than the bottom. Divided by the noise
+/// alone, water near the sonar may be.
 void divide_by_background(std::span<double> beam, std::span<const float> noise) {
     constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
     constexpr double min_power = 1e-30;

@@ -59,8 +59,9 @@ void echogram_row(std::span<const float> bins, double white, const StripFrame& f
 
 /// The slant range of the bottom's leading edge, the middle of its bin; null when the ping is dark.
 void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
-    const std::optional<int> bin = first_return(view.ping.intensity);
-    json["depth_m"] = bin ? nlohmann::ordered_json(view.sonar.middle_m(*bin)) : nullptr;
+    std::optional<double> depth_m;
+    if (const auto bin = first_return(view.ping.intensity)) depth_m = view.sonar.middle_m(*bin);
+    json["depth_m"] = number_or_null(depth_m);
 }
 
 }  // namespace

@@ -85,6 +85,8 @@ SonarConfig default_sonar(SonarKind kind);
 /// The keys of all kinds, for load_mission() and resolved_yaml().
 SonarKeyTable sonar_keys();
 
+// Steps that several kinds share.
+
 /// `bins` + 1 equally spaced values from `low` to `high`, both exact.
 std::vector<double> edges(double low, double high, int bins);
 

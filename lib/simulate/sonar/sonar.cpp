@@ -21,9 +21,7 @@ namespace {
 /// along its x, so that azimuth runs from starboard (-) to port (+).
 void set_mount(Sonar& sonar, const KindOfSonar& kind) {
     const auto& [translation_m, rpy_deg] = sonar.config.mount;
-    const Pose turned{
-        rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2])),
-        Eigen::Vector3d(translation_m.data())};
+    const Pose turned{rotation_from_degrees(rpy_deg), Eigen::Vector3d(translation_m.data())};
     const Pose down{rotation_from_rpy(0.0, 0.5 * pi, 0.0), Eigen::Vector3d::Zero()};
     sonar.T_vehicle_sensor = turned * (kind.looks_down ? down : Pose{});
 }

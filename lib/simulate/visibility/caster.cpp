@@ -58,8 +58,7 @@ struct Caster::Trees {
     };
 
     RTCDevice device = nullptr;
-    Eigen::Vector3d origin;            ///< the scene's
-    std::size_t placed_triangles = 0;  ///< with bodies and all copies
+    Eigen::Vector3d origin;  ///< the scene's
     std::vector<EmbreeTree> trees;
     std::vector<Facet> facets;
     std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
@@ -247,7 +246,6 @@ std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {
         throw InputError("the scene has " + std::to_string(placed) + " triangles; at most " +
                          std::to_string(max_facets) + " are supported");
     }
-    made->placed_triangles = placed;
     made->facets.reserve(facets);
     made->first_of_tree.push_back(0);
     if (has_parts(scene))
@@ -286,7 +284,12 @@ Caster Caster::moved(std::span<const Pose> T_world_body) const {
 }
 
 std::size_t Caster::placed_triangles() const {
-    return trees_->placed_triangles;
+    std::size_t count = 0;
+    for (std::size_t tree = 0; tree <= trees_->bodies; ++tree)
+        count += trees_->size(tree);
+    for (const Trees::PlacedCopy& copy : trees_->copies)
+        count += trees_->size(copy.tree);
+    return count;
 }
 
 Facet Caster::placed_facet(std::uint32_t index) const {

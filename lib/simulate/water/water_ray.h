@@ -52,8 +52,9 @@ inline constexpr double min_spread = 0.1;
 struct ApparentPlace {
     Eigen::Vector3d place, apparent;
     Eigen::Quaterniond R;
-    double strength;   ///< factor on the power of an echo, as sound converges or spreads
-    double off_per_m;  ///< a place so far from `place` is off by this, as R does not stretch
+    double strength;  ///< factor on the power of an echo, as sound converges or spreads
+    /// The error of a place for each metre from `place`, as R does not stretch.
+    double off_per_m;
 };
 
 /// The inverse of place_of(); nothing if no ray that departs near the line of sight leads there.

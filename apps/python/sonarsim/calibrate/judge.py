@@ -102,8 +102,8 @@ def noise_levels(recording, law, noise):
 
 
 def rows_beside(judged, simulated):
-    """(group, figure, judged, simulated, agrees) of each figure of the judged pings, NaN where the other has none. Values of both are taken by the law of the
-    judged pings, so the law of the instrument counts as well as its gain."""
+    """(group, figure, judged, simulated, agrees) of each figure of the judged pings, NaN where the other has none. Values
+    of both are taken by the law of the judged pings, so the law of the instrument counts as well as its gain."""
     full = simulated.law.full_value
     simulated = dataclasses.replace(simulated, law=dataclasses.replace(judged.law, full_value=full if judged.law.full_value
                                                                        else 0.0))

@@ -32,15 +32,15 @@ std::string name_in_file(const PlacedPrimitive& primitive) {
 }
 
 /// The name of a primitive's material in the CSV. InputError if it has none.
-std::string material_name(const PlacedPrimitive& primitive, const MaterialNumbers& rules) {
+std::string material_name(const PlacedPrimitive& primitive, const MaterialNumbers& materials) {
     const PlacedFile& placed = *primitive.file.placed;
     if (!placed.material.empty()) return placed.material;
     std::string name = name_in_file(primitive);
-    if (!rules.known.contains(name) && rules.known.contains(without_copy_number(name)))
+    if (!materials.known.contains(name) && materials.known.contains(without_copy_number(name)))
         name = without_copy_number(name);
-    if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
+    if (!materials.fallback.empty() && !materials.known.contains(name)) return materials.fallback;
     if (!name.empty()) return name;
-    if (rules.nameless_allowed) return "(no material)";
+    if (materials.nameless_allowed) return "(no material)";
     if (placed.heightmap || placed.seabed) {
         const std::string ground = placed.seabed ? "seabed" : "heightmap";
         throw InputError(placed.place, "the " + ground + " has no material; write scene." + ground +

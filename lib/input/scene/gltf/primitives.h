@@ -83,7 +83,8 @@ struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
     std::vector<std::string> users = {};  ///< the first node that uses each material, for messages
 
-    /// The index of a primitive's material in the scene, which gets it. InputError if it has none.
+    /// The index of a primitive's material in the scene, which is added at its first use.
+    /// InputError if it has none.
     std::uint32_t of(const PlacedPrimitive& primitive, Scene& scene);
 };
 

@@ -68,9 +68,8 @@ class ObjectRecords {
           visible_share_(open(folder, visible_share_record, "<u2")),
           level_(open(folder, context.kind().record.name, "<f4")),
           is_background_(background_ids(context.assembly.objects)) {
-        const std::vector<double>& edges = context.sonar().range_edges_m;
-        for (std::size_t k = 0; k + 1 < edges.size(); ++k)
-            range_m.push_back(0.5 * (edges[k] + edges[k + 1]));
+        for (int k = 0; k < context.sonar().settings.view.range_bins; ++k)
+            range_m.push_back(context.sonar().middle_m(k));
     }
 
     /// The ids, or passes of objects, of a picture as their masks.

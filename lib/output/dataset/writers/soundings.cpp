@@ -107,12 +107,12 @@ void write_soundings(const WriterContext& context, const RecordFile& records,
 
 void write_bathymetry(const WriterContext& context, const RecordFile& records,
                       const std::filesystem::path& folder) {
-    SoundingBounds bounds;
+    GroundBounds bounds;
     std::uint64_t left_out = 0;
     for_each_sounding(context, records, [&](const RecordedSounding& s) {
         good_for_map(s) ? bounds.add(s.position) : void(++left_out);
     });
-    Bathymetry grid = make_bathymetry(bounds, 0.0);
+    GroundGrid grid = make_ground_grid(bounds, 0.0);
     for_each_sounding(context, records, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });

@@ -112,12 +112,12 @@ double mosaic_cell_m(const WriterContext& context) {
 
 void write_mosaic(const WriterContext& context, const RecordFile& rows,
                   const std::filesystem::path& folder) {
-    SoundingBounds bounds;
+    GroundBounds bounds;
     std::uint64_t dark = 0;
     for_each_row(context, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
-    Bathymetry mosaic = make_bathymetry(bounds, mosaic_cell_m(context));
+    GroundGrid mosaic = make_ground_grid(bounds, mosaic_cell_m(context));
     std::optional<SwathRow> before;
     for_each_row(context, rows, [&](const RecordedRow& row) {
         if (!row.swath) return before.reset();

@@ -64,7 +64,8 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
 
 void append(const Backscatter& tabled, Scattering& scattering);
 
-/// `lambert_db`: 10 log mu; power reflection at normal incidence; slope s of facets, 0: none.
+/// `lambert_db`: 10 log mu. `reflection`: of power, at normal incidence. `slope_rms`: of the
+/// facets, 0: none.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);
 

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/equation/expected_echo.h"
 
 #include <algorithm>
-#include <complex>
 
 #include "core/elementary.h"
 #include "core/units.h"

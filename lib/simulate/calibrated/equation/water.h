@@ -1,5 +1,7 @@
 #pragma once
 
+// Sound in water: its absorption, and the echoes of fish and bubbles.
+
 namespace sonarsim {
 
 /// The water between sonar and scene.

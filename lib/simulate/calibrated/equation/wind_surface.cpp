@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/signal/decibel.h"

@@ -5,7 +5,7 @@
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "simulate/calibrated/receiver/receiver_chain.h"
-#include "simulate/calibrated/signal/filtered_noise.h"
+#include "simulate/calibrated/signal/normals.h"
 
 namespace sonarsim {
 

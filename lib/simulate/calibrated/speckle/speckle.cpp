@@ -9,8 +9,8 @@
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "simulate/calibrated/equation/seafloor_scattering.h"
-#include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/fourier.h"
+#include "simulate/calibrated/signal/normals.h"
 
 namespace sonarsim {
 
