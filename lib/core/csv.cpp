@@ -25,16 +25,14 @@ std::string read_quoted(std::string_view line, std::size_t& at, const Location& 
             return field;
         }
     }
-    throw InputError(where, "a quoted field is not closed on its line");
+    refuse(where, "a quoted field is not closed on its line");
 }
 
 std::vector<std::string> split_fields(std::string_view line, const Location& where) {
     std::vector<std::string> fields;
     std::size_t at = 0;
     while (true) {
-        if (fields.size() == max_columns) {
-            throw InputError(where, "more than " + std::to_string(max_columns) + " fields");
-        }
+        if (fields.size() == max_columns) refuse(where, "more than {} fields", max_columns);
         const std::size_t start = line.find_first_not_of(" \t", at);
         const bool is_quoted = start != std::string_view::npos && line[start] == '"';
         std::string field;
@@ -42,11 +40,9 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
         const std::size_t next = line.find(',', at);
         const std::string_view rest = trim(line.substr(at, next - at));
         if (is_quoted && !rest.empty())
-            throw InputError(where, "text after the closing quote of field '" + field + "'");
-        if (rest.find('"') != std::string_view::npos) {
-            throw InputError(where, "a quote inside of a field that does not start with one: " +
-                                        std::string(rest));
-        }
+            refuse(where, "text after the closing quote of field '{}'", field);
+        if (rest.find('"') != std::string_view::npos)
+            refuse(where, "a quote inside of a field that does not start with one: {}", rest);
         fields.emplace_back(is_quoted ? trim(field) : rest);
         if (next == std::string_view::npos) return fields;
         at = next + 1;
@@ -54,20 +50,18 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
 }
 
 /// Throws InputError for a text that is not a CSV.
-void check_text(std::string_view text, const std::string& file_name) {
+void check_text(std::string_view text, const Location& file) {
     const std::string_view format = known_format(text);
-    if (!format.empty())
-        throw InputError(Location{file_name}, "is " + std::string(format) + ", not a CSV");
-    if (text.find('\0') != std::string_view::npos) {
-        throw InputError(Location{file_name}, "holds a zero byte; expected CSV as UTF-8 text");
-    }
+    if (!format.empty()) refuse(file, "is {}, not a CSV", format);
+    if (text.find('\0') != std::string_view::npos)
+        refuse(file, "holds a zero byte; expected CSV as UTF-8 text");
 }
 
 /// Throws InputError for a line of another encoding.
 void check_utf8(std::string_view line, const Location& where) {
     while (!line.empty()) {
         const std::size_t length = utf8_length(line);
-        if (length == 0) throw InputError(where, "is not UTF-8 text; save the file as UTF-8");
+        if (length == 0) refuse(where, "is not UTF-8 text; save the file as UTF-8");
         line.remove_prefix(length);
     }
 }
@@ -75,13 +69,15 @@ void check_utf8(std::string_view line, const Location& where) {
 /// Throws InputError for a header whose fields are not separated by commas.
 void check_header(std::string_view line, const Location& where) {
     if (line.find('\r') != std::string_view::npos)
-        throw InputError(where, "lines end in CR alone; save the file with LF or CRLF");
+        refuse(where, "lines end in CR alone; save the file with LF or CRLF");
     if (line.find(',') != std::string_view::npos) return;
     const std::size_t at = line.find_first_of(";\t ");
     if (at == std::string_view::npos) return;
-    const std::string found = line[at] == ';' ? "';'" : line[at] == ' ' ? "blanks" : "tabs";
-    throw InputError(where, "the header has no comma: fields are separated by ',', not by " +
-                                found + ", and numbers have a decimal point");
+    const char* const found = line[at] == ';' ? "';'" : line[at] == ' ' ? "blanks" : "tabs";
+    refuse(where,
+           "the header has no comma: fields are separated by ',', not by {}, and numbers have a "
+           "decimal point",
+           found);
 }
 
 }  // namespace
@@ -89,7 +85,7 @@ void check_header(std::string_view line, const Location& where) {
 void for_each_csv_row(std::string_view text, const std::string& file_name,
                       const std::function<void(CsvRow& row)>& visit) {
     text = without_byte_order_mark(text);
-    check_text(text, file_name);
+    check_text(text, {file_name});
     std::size_t columns = 0;
     int header_line = 0;
     for (int number = 1; !text.empty(); ++number) {
@@ -106,13 +102,12 @@ void for_each_csv_row(std::string_view text, const std::string& file_name,
             columns = row.fields.size();
             header_line = number;
         } else if (row.fields.size() != columns) {
-            throw InputError(where, std::to_string(row.fields.size()) + " fields, but the header " +
-                                        "in line " + std::to_string(header_line) + " has " +
-                                        std::to_string(columns));
+            refuse(where, "{} fields, but the header in line {} has {}", row.fields.size(),
+                   header_line, columns);
         }
         visit(row);
     }
-    if (columns == 0) throw InputError(Location{file_name}, "is empty; expected a header line");
+    if (columns == 0) refuse(Location{file_name}, "is empty; expected a header line");
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& file_name) {
@@ -136,7 +131,7 @@ std::string csv_field(const std::string& field) {
     if (field.find_first_of(",\"# ") == std::string::npos) return field;
     std::string out = "\"";
     for (const char c : field)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+        out.append(c == '"' ? 2 : 1, c);
     return out + "\"";
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <spdlog/fmt/fmt.h>
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sonarsim {
@@ -23,6 +26,13 @@ class InputError : public std::runtime_error {
     InputError(const Location& where, const std::string& what);
     explicit InputError(const std::string& what) : std::runtime_error(what) {}
 };
+
+/// Throws InputError at the place, with the parts in place of each {} of the message.
+template <class... Parts>
+[[noreturn]] void refuse(const Location& where, fmt::format_string<Parts...> message,
+                         Parts&&... parts) {
+    throw InputError(where, fmt::format(message, std::forward<Parts>(parts)...));
+}
 
 /// Collects the errors of an input, so that the user sees all of them at once.
 class ErrorList {

@@ -55,22 +55,19 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     if (file.get() < 0) {
         const bool absent = errno == ENOENT;
         const std::string why = reason();
-        throw InputError(where, "cannot open: " + why + (absent ? hint_of_path(path) : ""));
+        refuse(where, "cannot open: {}{}", why, absent ? hint_of_path(path) : "");
     }
     struct stat status {};
-    if (::fstat(file.get(), &status) != 0) throw InputError(where, "cannot read: " + reason());
-    if (S_ISDIR(status.st_mode)) throw InputError(where, "is a folder; a file is expected here");
-    if (!S_ISREG(status.st_mode)) throw InputError(where, "is not a regular file");
+    if (::fstat(file.get(), &status) != 0) refuse(where, "cannot read: {}", reason());
+    if (S_ISDIR(status.st_mode)) refuse(where, "is a folder; a file is expected here");
+    if (!S_ISREG(status.st_mode)) refuse(where, "is not a regular file");
     const auto size = static_cast<std::size_t>(status.st_size);
-    if (size > limit) {
-        throw InputError(where, "is " + std::to_string(size) + " bytes long; at most " +
-                                    std::to_string(limit) + " are read");
-    }
+    if (size > limit) refuse(where, "is {} bytes long; at most {} are read", size, limit);
     std::string bytes(size, '\0');
     const auto got = move_all(size, [&](std::size_t done) {
         return ::read(file.get(), bytes.data() + done, size - done);
     });
-    if (!got) throw InputError(where, "cannot read: " + reason());
+    if (!got) refuse(where, "cannot read: {}", reason());
     bytes.resize(*got);
     return bytes;
 }
@@ -158,9 +155,10 @@ void StreamedFile::finish(Durable durable) {
 
 void require_no_link(const std::filesystem::path& path, const std::string& what) {
     if (!std::filesystem::is_symlink(path)) return;
-    throw InputError({path.string()}, "is a symbolic link, and " + what +
-                                          " is written into folders of its own; remove the link "
-                                          "or choose another output folder");
+    refuse(Location{path.string()},
+           "is a symbolic link, and {} is written into folders of its own; remove the link or "
+           "choose another output folder",
+           what);
 }
 
 namespace {

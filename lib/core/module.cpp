@@ -45,25 +45,26 @@ std::filesystem::path module_of_python() {
 
 void* module_symbol(const std::string& name, const char* symbol, const std::string& package,
                     const Location& where) {
-    const auto refuse = [&](const std::string& why) {
-        throw InputError(where, "cannot be read: " + why);
-    };
     const std::string title = "the module libsonarsim_" + name + ".so";
     const std::filesystem::path file = file_of_module(name);
     if (file.empty()) {
-        refuse(title + " is not installed with this program; install " + package +
-               " and build sonarsim again, or install sonarsim's Debian package");
+        refuse(where,
+               "cannot be read: {} is not installed with this program; install {} and build "
+               "sonarsim again, or install sonarsim's Debian package",
+               title, package);
     }
     void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (module == nullptr) {
         const char* reason = dlerror();  // NOLINT(concurrency-mt-unsafe): glibc has one a thread
-        refuse(title + " cannot be loaded (" + (reason ? reason : "unknown reason") +
-               "); install " + package);
+        refuse(where, "cannot be read: {} cannot be loaded ({}); install {}", title,
+               reason ? reason : "unknown reason", package);
     }
     void* found = dlsym(module, symbol);
     if (found == nullptr) {
-        refuse(file.string() +
-               " belongs to another version of sonarsim; install or build it again");
+        refuse(where,
+               "cannot be read: {} belongs to another version of sonarsim; install or build it "
+               "again",
+               file.string());
     }
     return found;
 }

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <spdlog/fmt/fmt.h>
-
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -18,15 +15,8 @@ struct YamlPlace {
     int line = 0;
     int column = 0;
 
-    Location location() const { return {*source, line, column}; }
+    operator Location() const { return {*source, line, column}; }
 };
-
-/// Throws InputError at the place, with the parts in place of each {} of the message.
-template <class... Parts>
-[[noreturn]] void refuse(const YamlPlace& place, fmt::format_string<Parts...> message,
-                         Parts&&... parts) {
-    throw InputError(place.location(), fmt::format(message, std::forward<Parts>(parts)...));
-}
 
 /// A node of a YAML document as it was written, without its meaning, and its place.
 struct YamlNode {

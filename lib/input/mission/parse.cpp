@@ -21,7 +21,7 @@ constexpr std::size_t largest_file = std::size_t{1} << 20;
 
 YamlNode document_of(std::string_view text, const std::string& file_name,
                      std::span<const std::string> overrides, Lines lines = Lines::counted) {
-    if (text.size() > largest_file) throw InputError({file_name}, "is larger than 1 MiB");
+    if (text.size() > largest_file) refuse({file_name}, "is larger than 1 MiB");
     YamlNode root = read_document(text, file_name, lines);
     for (const std::string& setting : overrides)
         apply_override(root, setting);
@@ -45,19 +45,19 @@ void check_rules(const Mission& mission) {
         {"output.folder", "each variant has a folder of its own in that of the mission"}};
     ErrorList errors;
     for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
-        const auto refuse = [&](const std::string& what) {
-            errors.add(InputError(rule->place, "'" + printable(rule->key) + "' " + what));
+        const auto add = [&](const std::string& fault) {
+            errors.add(InputError(rule->place, "'" + printable(rule->key) + "' " + fault));
         };
         for (const Reserved& one : reserved) {
-            if (is_within(rule->key, one.key)) refuse(std::string("cannot vary: ") + one.why);
+            if (is_within(rule->key, one.key)) add(std::string("cannot vary: ") + one.why);
         }
         const auto lost = std::find_if(mission.vary.begin(), rule, [&](const VaryConfig& earlier) {
             return is_within(earlier.key, rule->key);
         });
         if (lost == rule) continue;
-        refuse(lost->key == rule->key ? "varies twice; leave out one of the two rules"
-                                      : "replaces what is drawn for '" + printable(lost->key) +
-                                            "' before it; write that rule after this one");
+        add(lost->key == rule->key ? "varies twice; leave out one of the two rules"
+                                   : "replaces what is drawn for '" + printable(lost->key) +
+                                         "' before it; write that rule after this one");
     }
     errors.raise();
 }
@@ -138,8 +138,7 @@ YamlNode read_mission_document(const MissionSource& source) {
     const std::string ending = in_lower_case(source.file.extension().string());
     for (const char* const mesh : {".obj", ".stl", ".ply", ".glb", ".gltf"}) {
         if (!source.text && ending == mesh)
-            throw InputError({name},
-                             "is a mesh; `sonarsim new " + name + "` writes a mission around it");
+            refuse({name}, "is a mesh; `sonarsim new {}` writes a mission around it", name);
     }
     if (source.text) return document_of(*source.text, name, source.overrides, Lines::none);
     return document_of(read_file(source.file, largest_file), name, source.overrides);
@@ -153,9 +152,9 @@ Mission load_mission(const MissionSource& source, SonarKeyTable sonars) {
     const bool is_of_dataset = !source.text && source.base_folder == own_folder &&
                                fs::exists(own_folder / description_name);
     if (is_of_dataset && !fs::exists(files_of(mission).front())) {
-        throw InputError({source.file.string()},
-                         "belongs to a dataset, and its paths start at the folder of the scene "
-                         "file; say which that is with --paths-from FOLDER");
+        refuse({source.file.string()},
+               "belongs to a dataset, and its paths start at the folder of the scene file; say "
+               "which that is with --paths-from FOLDER");
     }
     return mission;
 }

@@ -109,7 +109,6 @@ std::vector<std::string> extremes_of(const VaryConfig& rule) {
 
 void check_rule(const Mission& mission, const VaryConfig& rule) {
     constexpr double min_share = 0.05;
-    const auto refuse = [&](const std::string& what) { throw InputError(rule.place, what); };
     VehicleConfig vehicle;
     SonarConfig any_sensor;
     std::vector<SonarConfig> sensors = mission.sensors;
@@ -122,21 +121,20 @@ void check_rule(const Mission& mission, const VaryConfig& rule) {
         numbers.list.clear();
         add_sensor("", any_sensor, numbers);
         numbers.add(vehicle_section, vehicle);
-        refuse("'" + printable(rule.key) +
-               "' cannot be drawn for every ping; write per: variant, or one of the keys that can, "
-               "the first of them below sensors.NAME: " +
-               listed(names_of(numbers.list)));
+        refuse(rule.place,
+               "'{}' cannot be drawn for every ping; write per: variant, or one of the keys that "
+               "can, the first of them below sensors.NAME: {}",
+               printable(rule.key), listed(names_of(numbers.list)));
     }
     for (const std::string& text : extremes_of(rule)) {
         const std::optional<double> value = parse_number(text);
-        if (!value) refuse("'choice' for every ping takes numbers for '" + rule.key + "'");
+        if (!value) refuse(rule.place, "'choice' for every ping takes numbers for '{}'", rule.key);
         const std::string fault = fault_of(*value, number->limits);
-        if (!fault.empty()) refuse("'" + rule.key + "' must be " + fault + ", not " + text);
+        if (!fault.empty()) refuse(rule.place, "'{}' must be {}, not {}", rule.key, fault, text);
     }
-    if (share_within(rule) < min_share) {
-        refuse("'within' holds less than 5 % of the normal draws of '" + rule.key +
-               "'; make it wider");
-    }
+    if (share_within(rule) < min_share)
+        refuse(rule.place,
+               "'within' holds less than 5 % of the normal draws of '{}'; make it wider", rule.key);
 }
 
 double draw_normal(const VaryConfig& rule, PhiloxKey key) {
@@ -147,9 +145,11 @@ double draw_normal(const VaryConfig& rule, PhiloxKey key) {
         if (!rule.within || ((*rule.within)[0] <= value && value <= (*rule.within)[1]))
             return value;
     }
-    throw InputError(rule.place,
-                     "a thousand normal draws of '" + printable(rule.key) +
-                         "' lie outside of 'within'; make it wider or the deviation larger");
+    refuse(
+        rule.place,
+        "a thousand normal draws of '{}' lie outside of 'within'; make it wider or the deviation "
+        "larger",
+        printable(rule.key));
 }
 
 std::size_t one_of(double count, double share) {
@@ -226,7 +226,7 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
     if (rule.whole) {
         const double low = std::ceil((*rule.whole)[0]);
         const double count = std::floor((*rule.whole)[1]) - low + 1.0;
-        if (count < 1.0) throw InputError(rule.place, "there is no whole number in 'whole'");
+        if (count < 1.0) refuse(rule.place, "there is no whole number in 'whole'");
         // No exponent, which keys of whole numbers refuse.
         return std::to_string(static_cast<std::int64_t>(low) +
                               static_cast<std::int64_t>(one_of(count, share)));

@@ -89,7 +89,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
         value = forms[index_of_present({keys.begin(), keys.end()})];
         std::visit(
             [&](auto& chosen) {
-                if constexpr (requires { chosen.place; }) chosen.place = node_.place.location();
+                if constexpr (requires { chosen.place; }) chosen.place = node_.place;
             },
             value);
     }
@@ -109,7 +109,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
     void read(const YamlNode& node, std::string name, auto& value) {
         errors_.attempt([&] {
             MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
-            if constexpr (requires { value.place; }) value.place = node.place.location();
+            if constexpr (requires { value.place; }) value.place = node.place;
             describe(reader, value);
             reader.finish();
         });

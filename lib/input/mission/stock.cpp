@@ -98,9 +98,10 @@ std::optional<AreaConfig> default_area(const SceneConfig& scene, const ScatterCo
     if (scene.area) return scene.area;
     if (scene.seabed && scene.seabed->size_m) return AreaConfig{{0.0, 0.0}, *scene.seabed->size_m};
     if (!scene.seabed && !scene.heightmap && rule.density_per_m2[1] == 0.0) return std::nullopt;
-    throw InputError(rule.place, "'" + printable(rule.name) +
-                                     "' needs an area: area_min_m and area_max_m, or for all rules "
-                                     "scene.area: {min_m: [x, y], max_m: [x, y]}");
+    refuse(rule.place,
+           "'{}' needs an area: area_min_m and area_max_m, or for all rules scene.area: {{min_m: "
+           "[x, y], max_m: [x, y]}}",
+           printable(rule.name));
 }
 
 }  // namespace
@@ -144,10 +145,9 @@ void complete_scatter(SceneConfig& scene) {
         rule.count = {std::floor(rule.density_per_m2[0] * area_m2),
                       std::ceil(rule.density_per_m2[1] * area_m2)};
         if (rule.count[1] > 1e5) {
-            throw InputError(rule.place,
-                             "'" + printable(rule.name) +
-                                 "' is more than 100,000 "
-                                 "objects; lower density_per_m2 or take a smaller area");
+            refuse(rule.place,
+                   "'{}' is more than 100,000 objects; lower density_per_m2 or take a smaller area",
+                   printable(rule.name));
         }
     }
 }

@@ -33,8 +33,8 @@ void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
 std::string scaled(const VaryConfig& rule, const std::string& factor, const YamlNode& own) {
     if (const std::optional<double> value = number_at(own, rule.key))
         return number_text(*value * *parse_number(factor));
-    throw InputError(rule.place, "'scale' needs a number to multiply, which '" +
-                                     printable(rule.key) + "' is not");
+    refuse(rule.place, "'scale' needs a number to multiply, which '{}' is not",
+           printable(rule.key));
 }
 
 /// True if a rule without `scale` may change the value that a rule with `scale` multiplies: by

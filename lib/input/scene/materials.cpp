@@ -48,20 +48,19 @@ std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
     const std::vector<std::string> first(
         names.begin(), names.begin() + std::min<std::ptrdiff_t>(3, std::ssize(names)));
     if (first != ours && first != holoocean) {
-        throw InputError(where,
-                         "the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
-                         "'Material, Density kg/m^3, Speed of Sound m/s'");
+        refuse(where,
+               "the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
+               "'Material, Density kg/m^3, Speed of Sound m/s'");
     }
     std::vector<OptionalColumn> columns;
     for (auto name = names.begin() + 3; name != names.end(); ++name) {
         const auto column = std::ranges::find(optional_columns, *name, &OptionalColumn::name);
         if (column == optional_columns.end()) {
-            const auto known = names_of(optional_columns);
-            throw InputError(where, "unknown column '" + printable(*name) + "'" +
-                                        did_you_mean(*name, known) + "; docs/scenes.md lists them");
+            refuse(where, "unknown column '{}'{}; docs/scenes.md lists them", printable(*name),
+                   did_you_mean(*name, names_of(optional_columns)));
         }
         if (std::find(names.begin() + 3, name, *name) != name)
-            throw InputError(where, "the column '" + *name + "' occurs twice; leave one out");
+            refuse(where, "the column '{}' occurs twice; leave one out", *name);
         columns.push_back(*column);
     }
     return columns;
@@ -70,12 +69,10 @@ std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
 double number_within(const std::string& text, const char* quantity, double low, double high,
                      const Location& where) {
     const auto value = parse_number(text);
-    if (!value) throw InputError(where, std::string(quantity) + " '" + text + "' is not a number");
-    if (!(*value >= low && *value <= high)) {
-        throw InputError(where, std::string(quantity) + " is " + text +
-                                    "; expected a number from " + number_text(low) + " to " +
-                                    number_text(high));
-    }
+    if (!value) refuse(where, "{} '{}' is not a number", quantity, text);
+    if (!(*value >= low && *value <= high))
+        refuse(where, "{} is {}; expected a number from {} to {}", quantity, text, number_text(low),
+               number_text(high));
     return *value;
 }
 
@@ -83,8 +80,7 @@ double number_within(const std::string& text, const char* quantity, double low, 
 /// wall.
 void check_sea_bed(const Material& material, const Location& where) {
     if (material.wall_mm && (material.grain_phi || material.loss_parameter))
-        throw InputError(where,
-                         "a sea bed has no wall_mm; leave it or the sea bed's columns empty");
+        refuse(where, "a sea bed has no wall_mm; leave it or the sea bed's columns empty");
     if (material.grain_phi) return;
     const std::array<std::pair<const char*, bool>, 3> needed{
         {{"loss_parameter", material.loss_parameter.has_value()},
@@ -96,8 +92,8 @@ void check_sea_bed(const Material& material, const Location& where) {
     for (const auto& [name, is_given] : needed) {
         if (!is_given) missing.push_back("'" + std::string(name) + "'");
     }
-    throw InputError(where, "without a grain_phi a sea bed needs " + listed(missing) +
-                                ", too; fill them in, or fill in grain_phi");
+    refuse(where, "without a grain_phi a sea bed needs {}, too; fill them in, or fill in grain_phi",
+           listed(missing));
 }
 
 MaterialTable to_materials(const CsvTable& csv) {
@@ -109,12 +105,10 @@ MaterialTable to_materials(const CsvTable& csv) {
         const Location where{csv.file, row.line};
         Material material;
         material.name = row.fields[0];
-        if (material.name.empty()) throw InputError(where, "the material has no name");
+        if (material.name.empty()) refuse(where, "the material has no name");
         const auto [known, is_new] = line_of.emplace(material.name, row.line);
-        if (!is_new) {
-            throw InputError(where, "material '" + material.name + "' is already in line " +
-                                        std::to_string(known->second));
-        }
+        if (!is_new)
+            refuse(where, "material '{}' is already in line {}", material.name, known->second);
         material.density_kg_m3 =
             number_within(row.fields[1], "density", min_medium, largest_medium, where);
         material.sound_speed_m_s =
@@ -158,19 +152,19 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& material = scene.materials[i];
         if (material.density_kg_m3 > 0.0) continue;  // resolved already
-        const Material* const found = find_material(table.materials, material.name);
-        if (!found) {
-            const std::string name = "'" + printable(material.name) + "'";
-            errors.add(InputError(Location{table.file},
-                                  "lacks the material " + name +
-                                      (i < users.size() ? " of " + users[i] : "") +
-                                      did_you_mean(material.name, names_of(table.materials)) +
-                                      "; add it to the CSV or give scene.material_default"));
-            continue;
-        }
-        material = *found;
-        material.reflection = static_cast<float>(
-            power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
+        errors.attempt([&] {
+            const Material* const found = find_material(table.materials, material.name);
+            if (!found) {
+                refuse(Location{table.file},
+                       "lacks the material '{}'{}{}; add it to the CSV or give "
+                       "scene.material_default",
+                       printable(material.name), i < users.size() ? " of " + users[i] : "",
+                       did_you_mean(material.name, names_of(table.materials)));
+            }
+            material = *found;
+            material.reflection = static_cast<float>(
+                power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
+        });
     }
     errors.raise();
 }
@@ -178,9 +172,8 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
 void require_material(const MaterialTable& table, const std::string& name, const Location& place) {
     const std::vector<std::string> known = names_of(table.materials);
     if (std::ranges::find(known, name) != known.end()) return;
-    throw InputError(place, "unknown material '" + printable(name) + "'" +
-                                did_you_mean(name, known) + "; " + table.file +
-                                " lists the materials");
+    refuse(place, "unknown material '{}'{}; {} lists the materials", printable(name),
+           did_you_mean(name, known), table.file);
 }
 
 std::string materials_csv(const Scene& scene, const MaterialTable& known) {

@@ -44,13 +44,10 @@ std::vector<const ClassConfig*> rule_of_instances(const NamedInstances& instance
         }
         if (fits) continue;
         const bool by_node = rule.materials.empty();
-        throw InputError(
-            rule.place,
-            std::string("no ") + (by_node ? "node" : "material") + " of the scene " +
-                (taken ? "is left for" : "fits") + " '" + (by_node ? rule.nodes : rule.materials) +
-                "'" +
-                (taken ? ": rules above it take all that fit"
-                       : "; `sonarsim inspect` lists the names of its nodes and materials"));
+        refuse(rule.place, "no {} of the scene {} '{}'{}", by_node ? "node" : "material",
+               taken ? "is left for" : "fits", by_node ? rule.nodes : rule.materials,
+               taken ? ": rules above it take all that fit"
+                     : "; `sonarsim inspect` lists the names of its nodes and materials");
     }
     return chosen;
 }
@@ -128,15 +125,16 @@ SceneObjects group_objects(const Scene& scene, std::span<const ClassConfig> rule
         // Names of nodes are unique, so if two nodes share a name, a rule has grouped one of them.
         const ClassConfig& culprit = grouped ? *rule : *maker[object];
         if (!grouped || !maker[object]) {
-            throw InputError(culprit.place, "the instance '" + culprit.instance +
-                                                "' has the name of a node that is not in it; "
-                                                "choose another");
+            refuse(culprit.place,
+                   "the instance '{}' has the name of a node that is not in it; choose another",
+                   culprit.instance);
         }
         if (out.objects[object].class_index != class_index) {
-            throw InputError(culprit.place, "the instance '" + culprit.instance +
-                                                "' has the class '" + rule->name + "' here and '" +
-                                                classes.names[out.objects[object].class_index] +
-                                                "' in another rule; an instance has one class");
+            refuse(
+                culprit.place,
+                "the instance '{}' has the class '{}' here and '{}' in another rule; an instance "
+                "has one class",
+                culprit.instance, rule->name, classes.names[out.objects[object].class_index]);
         }
     }
     require_ids(out.objects.size(), "objects");

@@ -49,23 +49,22 @@ std::string in_short_quotes(std::string_view field) {
 }
 
 double field_value(std::string_view field, const Column& column, const Location& where) {
-    const auto cell = [&] { return std::string(column.name) + ": " + in_short_quotes(field); };
     const std::optional<double> value = parse_number(field);
-    if (!value) throw InputError(where, cell() + " is not a number");
-    if (!std::isfinite(*value)) throw InputError(where, cell() + " is not a finite number");
-    if (std::fabs(*value) <= column.limit) return *value;
-    throw InputError(where, cell() + " is beyond " + number_text(column.limit) +
-                                "; the column's name gives the unit");
+    if (value && std::fabs(*value) <= column.limit) return *value;
+    const std::string cell = fmt::format("{}: {}", column.name, in_short_quotes(field));
+    if (!value) refuse(where, "{} is not a number", cell);
+    if (!std::isfinite(*value)) refuse(where, "{} is not a finite number", cell);
+    refuse(where, "{} is beyond {}; the column's name gives the unit", cell,
+           number_text(column.limit));
 }
 
 Eigen::Quaterniond unit_quaternion(std::span<const double, 4> xyzw, const Location& where) {
     const Eigen::Quaterniond q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     const double norm = q.norm();
-    if (norm == 0.0) throw InputError(where, "the quaternion is zero; a rotation has norm 1");
-    if (std::fabs(norm - 1.0) > 1e-3) {
-        throw InputError(where, "the quaternion has norm " + number_text(norm) +
-                                    "; a rotation has norm 1 (1e-3 off is tolerated)");
-    }
+    if (norm == 0.0) refuse(where, "the quaternion is zero; a rotation has norm 1");
+    if (std::fabs(norm - 1.0) > 1e-3)
+        refuse(where, "the quaternion has norm {}; a rotation has norm 1 (1e-3 off is tolerated)",
+               number_text(norm));
     // Unit quaternions keep their bits, so that written poses read back exactly.
     return std::fabs(norm - 1.0) < 1e-14 ? q : q.normalized();
 }
@@ -82,16 +81,16 @@ TimedPose pose_from(std::span<const double> values, const Location& where) {
 
 void append(Trajectory& trajectory, const TimedPose& pose, const Location& where) {
     if (!trajectory.empty() && !(pose.t_s > trajectory.back().t_s)) {
-        throw InputError(where, "time " + number_text(pose.t_s) + " s does not come after the " +
-                                    number_text(trajectory.back().t_s) +
-                                    " s of the pose before; times must increase strictly");
+        refuse(where,
+               "time {} s does not come after the {} s of the pose before; times must increase "
+               "strictly",
+               number_text(pose.t_s), number_text(trajectory.back().t_s));
     }
     trajectory.push_back(pose);
 }
 
 Trajectory require_poses(Trajectory trajectory, const std::string& file) {
-    if (trajectory.empty())
-        throw InputError(Location{file}, "holds no pose; at least one is needed");
+    if (trajectory.empty()) refuse(Location{file}, "holds no pose; at least one is needed");
     return trajectory;
 }
 
@@ -103,11 +102,10 @@ void check_names(std::span<const std::string> header, const Location& where) {
     const std::vector<std::string> known = names_of(all_columns);
     for (std::size_t i = 0; i < header.size(); ++i) {
         const std::string name = in_short_quotes(header[i]);
-        if (has(header.first(i), header[i]))
-            throw InputError(where, "column " + name + " occurs twice");
+        if (has(header.first(i), header[i])) refuse(where, "column {} occurs twice", name);
         if (has(known, header[i])) continue;
-        throw InputError(where, "unknown column " + name + did_you_mean(header[i], known) +
-                                    "; expected " + header_help);
+        refuse(where, "unknown column {}{}; expected {}", name, did_you_mean(header[i], known),
+               header_help);
     }
 }
 
@@ -116,18 +114,15 @@ std::vector<Column> columns_of(std::span<const std::string> header, const Locati
     check_names(header, where);
     const auto is_given = [&](const Column& column) { return has(header, column.name); };
     const bool quaternion = std::ranges::any_of(quaternion_columns, is_given);
-    if (quaternion == std::ranges::any_of(angle_columns, is_given)) {
-        throw InputError(where, std::string(quaternion ? "two attitudes" : "no attitude") +
-                                    "; expected " + header_help);
-    }
+    if (quaternion == std::ranges::any_of(angle_columns, is_given))
+        refuse(where, "{}; expected {}", quaternion ? "two attitudes" : "no attitude", header_help);
     const std::span<const Column> attitude = quaternion ? quaternion_columns : angle_columns;
     std::vector<Column> columns(time_and_place.begin(), time_and_place.end());
     columns.insert(columns.end(), attitude.begin(), attitude.end());
     std::vector<Column> missing;
     std::ranges::remove_copy_if(columns, std::back_inserter(missing), is_given);
     if (missing.empty()) return columns;
-    throw InputError(where,
-                     "missing column " + listed(names_of(missing)) + "; expected " + header_help);
+    refuse(where, "missing column {}; expected {}", listed(names_of(missing)), header_help);
 }
 
 std::vector<std::string_view> split_blanks(std::string_view line) {
@@ -178,8 +173,7 @@ Trajectory parse_tum(std::string_view text, const std::string& file) {
         const Location where{file, number};
         std::array<double, tum_fields> values{};
         if (fields.size() != values.size()) {
-            throw InputError(where, std::to_string(fields.size()) +
-                                        " fields; a pose has 8: t x y z qx qy qz qw");
+            refuse(where, "{} fields; a pose has 8: t x y z qx qy qz qw", fields.size());
         }
         for (std::size_t c = 0; c < values.size(); ++c) {
             const auto column = static_cast<int>(fields[c].data() - line.data()) + 1;
@@ -194,8 +188,8 @@ Trajectory read_trajectory(const std::filesystem::path& file) {
     const std::string extension = in_lower_case(file.extension().string());
     const bool csv = extension == ".csv";
     if (!csv && extension != ".txt" && extension != ".tum") {
-        throw InputError(Location{file.string()},
-                         "a trajectory's name ends in .csv, or in .txt or .tum for TUM poses");
+        refuse(Location{file.string()},
+               "a trajectory's name ends in .csv, or in .txt or .tum for TUM poses");
     }
     const std::string text = read_file(file, max_bytes);
     return csv ? parse_csv_trajectory(text, file.string()) : parse_tum(text, file.string());

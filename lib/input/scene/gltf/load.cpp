@@ -1,7 +1,5 @@
 #include "input/scene/gltf/load.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
@@ -45,8 +43,8 @@ void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
     if (length_m < suspicious_length_m && length_m > suspicious_smallness_m) return;
     const std::string path = file.placed->file.string();
     if (!warned.emplace(path, file.placed->unit_m).second) return;
-    scene.warnings.push_back(path + fmt::format(" is {:.4g} m long", length_m) +
-                             "; if that is wrong, set its `units`, as in units: mm");
+    scene.warnings.push_back(fmt::format(
+        "{} is {:.4g} m long; if that is wrong, set its `units`, as in units: mm", path, length_m));
 }
 
 /// Finds the extents of the files, and from them the origin of the scene.
@@ -93,8 +91,8 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     UniqueNames names;
     for (const PlacedFile& file : files) {
         if (file.name.empty() || names.taken.insert(file.name).second) continue;
-        throw InputError(file.place, "there is an object '" + printable(file.name) +
-                                         "' already; give each a name of its own");
+        refuse(file.place, "there is an object '{}' already; give each a name of its own",
+               printable(file.name));
     }
     // The rules of the mission know the ground by the names of its nodes, so they come first.
     std::vector<OpenFile> open(files.size());
@@ -246,9 +244,9 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
                 return fits_pattern(pattern, mesh.instance);
             }))
             continue;
-        throw InputError(file.place, "bottom: no node of " + file.file.string() + " fits '" +
-                                         pattern +
-                                         "'; `sonarsim inspect` lists the names of its nodes");
+        refuse(file.place,
+               "bottom: no node of {} fits '{}'; `sonarsim inspect` lists the names of its nodes",
+               file.file.string(), pattern);
     }
     std::erase_if(open.meshes, [&](const PlacedMesh& mesh) {
         return !nodes.empty() && !fits_any(nodes, mesh.instance);

@@ -21,16 +21,15 @@ void check_parts(const Parts& parts, const std::string& list, const Location& wh
         if (!extras.IsObject() || !extras.Has("sonar")) continue;
         const std::string path = list + "[" + std::to_string(i) + "].extras.sonar";
         const tinygltf::Value& sonar = extras.Get("sonar");
-        if (!sonar.IsObject()) throw InputError(where, path + " is not an object");
+        if (!sonar.IsObject()) refuse(where, "{} is not an object", path);
         for (const std::string& key : sonar.Keys()) {
             if (std::ranges::find(known, key) == known.end()) {
-                throw InputError(where, path + ": unknown key '" + printable(key) + "'" +
-                                            did_you_mean(key, known) +
-                                            "; only 'material' and 'class' are read");
+                refuse(where, "{}: unknown key '{}'{}; only 'material' and 'class' are read", path,
+                       printable(key), did_you_mean(key, known));
             }
             const tinygltf::Value& value = sonar.Get(key);
             if (value.IsString() && value.Get<std::string>().size() <= max_bytes) continue;
-            throw InputError(where, path + "." + key + " is not a text of at most 1000 bytes");
+            refuse(where, "{}.{} is not a text of at most 1000 bytes", path, key);
         }
     }
 }
@@ -49,13 +48,14 @@ struct Graph {
     std::string name(int index) const {
         return node(index).name.empty() ? "node" + std::to_string(index) : node(index).name;
     }
-    [[noreturn]] void fail(int index, const std::string& what) const {
-        throw InputError(Location{file}, "node '" + name(index) + "' " + what);
+    template <class... Parts>
+    [[noreturn]] void fail(int index, fmt::format_string<Parts...> what, Parts&&... parts) const {
+        refuse({file}, "node '{}' {}", name(index),
+               fmt::format(what, std::forward<Parts>(parts)...));
     }
     void check_exists(int index, const std::string& what) const {
         if (static_cast<std::size_t>(index) < size()) return;
-        throw InputError(Location{file},
-                         what + " node " + std::to_string(index) + ", which does not exist");
+        refuse({file}, "{} node {}, which does not exist", what, index);
     }
 };
 
@@ -66,8 +66,8 @@ std::vector<int> parents_of(const Graph& graph) {
             graph.check_exists(child, "node '" + graph.name(i) + "' has the child");
             int& known = parent[static_cast<std::size_t>(child)];
             if (known != no_parent) {
-                graph.fail(child, "has two parents, '" + graph.name(known) + "' and '" +
-                                      graph.name(i) + "'");
+                graph.fail(child, "has two parents, '{}' and '{}'", graph.name(known),
+                           graph.name(i));
             }
             known = i;
         }
@@ -95,16 +95,15 @@ std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent)
     }
     const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
     if (scene >= model.scenes.size()) {
-        throw InputError(Location{graph.file}, "the default scene is " + std::to_string(scene) +
-                                                   ", which does not exist");
+        refuse({graph.file}, "the default scene is {}, which does not exist", scene);
     }
     std::vector<bool> is_listed(graph.size(), false);
     for (const int root : model.scenes[scene].nodes) {
         graph.check_exists(root, "the scene has the root");
         const auto i = static_cast<std::size_t>(root);
         if (parent[i] != no_parent) {
-            graph.fail(root, "is a root of the scene, but also a child of '" +
-                                 graph.name(parent[i]) + "'");
+            graph.fail(root, "is a root of the scene, but also a child of '{}'",
+                       graph.name(parent[i]));
         }
         if (is_listed[i]) graph.fail(root, "is listed twice in the scene");
         is_listed[i] = true;
@@ -118,8 +117,7 @@ Eigen::Affine3d local_transform(const Graph& graph, int index) {
     const auto require_size = [&](const char* key, const std::vector<double>& numbers,
                                   std::size_t size) {
         if (numbers.empty() || numbers.size() == size) return;
-        graph.fail(index, "has a " + std::string(key) + " of " + std::to_string(numbers.size()) +
-                              " numbers; expected " + std::to_string(size));
+        graph.fail(index, "has a {} of {} numbers; expected {}", key, numbers.size(), size);
     };
     require_size("matrix", node.matrix, 16);
     require_size("translation", node.translation, 3);
@@ -155,7 +153,7 @@ void check_rigid(const Graph& graph, int index) {
     const tinygltf::Node& node = graph.node(index);
     const auto& meshes = graph.model.meshes;
     if (static_cast<std::size_t>(node.mesh) >= meshes.size()) {
-        graph.fail(index, "has mesh " + std::to_string(node.mesh) + ", which does not exist");
+        graph.fail(index, "has mesh {}, which does not exist", node.mesh);
     }
     if (node.skin >= 0) {
         graph.fail(index, "is skinned, which is not read; apply the armature before the export");

@@ -23,10 +23,7 @@ std::string name_in_file(const PlacedPrimitive& primitive) {
     if (!primitive.mesh.material.empty()) return primitive.mesh.material;
     if (primitive.material < 0) return "";
     const tinygltf::Material* const material = material_of(primitive);
-    if (!material) {
-        throw InputError(primitive.where + ": material " + std::to_string(primitive.material) +
-                         " does not exist");
-    }
+    if (!material) refuse(primitive.where, "material {} does not exist", primitive.material);
     const std::string own = sonar_extra(material->extras, "material");
     return own.empty() ? material->name : own;
 }
@@ -42,20 +39,19 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialNumber
     if (!name.empty()) return name;
     if (materials.nameless_allowed) return "(no material)";
     if (placed.heightmap || placed.seabed) {
-        const std::string ground = placed.seabed ? "seabed" : "heightmap";
-        throw InputError(placed.place, "the " + ground + " has no material; write scene." + ground +
-                                           ".material: NAME");
+        refuse(placed.place, "the {0} has no material; write scene.{0}.material: NAME",
+               placed.seabed ? "seabed" : "heightmap");
     }
     if (is_mesh_file(placed.file)) {
-        throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +
-                                           "' has no material in " + placed.file.string() +
-                                           "; write material: NAME for an object, or "
-                                           "scene.material_default for all that have none");
+        refuse(placed.place,
+               "'{}' has no material in {}; write material: NAME for an object, or "
+               "scene.material_default for all that have none",
+               printable(primitive.mesh.instance), placed.file.string());
     }
-    throw InputError(primitive.where + " of node '" + primitive.mesh.instance + "': " +
-                     (primitive.material < 0 ? "has no material" : "its material has no name") +
-                     "; name one in the glTF material or as extras.sonar.material of the node, or "
-                     "give scene.material_default");
+    refuse(primitive.in_node(),
+           "{}; name one in the glTF material or as extras.sonar.material of the node, or give "
+           "scene.material_default",
+           primitive.material < 0 ? "has no material" : "its material has no name");
 }
 
 /// "'NODE' in FILE (mission.yaml:6:7)": the primitive's node, for messages.
@@ -71,8 +67,7 @@ void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
     work += piece_cost;
     if (source) work += source->count + source->positions.sparse_at.size();
     if (work <= max_triangles) return;
-    throw InputError(Location{file},
-                     "places more than 2^28 triangles (a primitive counts as 64 more)");
+    refuse({file}, "places more than 2^28 triangles (a primitive counts as 64 more)");
 }
 
 std::uint32_t MaterialNumbers::of(const PlacedPrimitive& primitive, Scene& scene) {
@@ -93,9 +88,10 @@ void take_class_of_material(const PlacedPrimitive& primitive, std::string& class
     const std::string own = sonar_extra(material->extras, "class");
     if (own.empty() || own == class_name) return;
     if (!class_name.empty()) {
-        throw InputError(primitive.where + " of node '" + primitive.mesh.instance +
-                         "': its material has the class '" + own + "', another of the node's '" +
-                         class_name + "'; give the node a class as its extras.sonar.class");
+        refuse(primitive.in_node(),
+               "its material has the class '{}', another of the node's '{}'; give the node a class "
+               "as its extras.sonar.class",
+               own, class_name);
     }
     class_name = own;
 }

@@ -31,8 +31,10 @@ struct PlacedPrimitive {
     bool has_floats;                         ///< its positions are no integers
     std::vector<Eigen::Vector3d> positions;  ///< the vertices in the mesh's own axes
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    int material;       ///< index into the glTF's materials; -1: none
-    std::string where;  ///< location for error messages
+    int material;    ///< index into the glTF's materials; -1: none
+    Location where;  ///< for error messages
+
+    Location in_node() const { return {where.file + " of node '" + mesh.instance + "'"}; }
 };
 
 /// Limits the work of reading a scene, since a small file can place a large mesh, or many small
@@ -54,11 +56,10 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
         const tinygltf::Mesh& mesh = file.model->meshes[mesh_index];
         const std::string name =
             mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
-        const std::string prefix = path + ": mesh " + name + " primitive ";
         for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
             const std::set<int>& own = file.meshes[i].materials;
             if (!own.empty() && !own.contains(mesh.primitives[k].material)) continue;
-            const std::string where = prefix + std::to_string(k);
+            const Location where{fmt::format("{}: mesh {} primitive {}", path, name, k)};
             const auto source = open_triangles(*file.model, mesh.primitives[k], where);
             limit.add(source ? &*source : nullptr, path);
             if (!source) {

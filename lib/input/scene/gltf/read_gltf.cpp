@@ -43,16 +43,13 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
 /// Removes a chunk of a .glb from the front of `bytes`.
 std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const Location& where) {
     constexpr std::size_t head = 8;
-    if (bytes.size() < head) throw InputError(where, "the .glb ends within a chunk header");
+    if (bytes.size() < head) refuse(where, "the .glb ends within a chunk header");
     const std::size_t length = little_endian(bytes, 0);
-    if (little_endian(bytes, 4) != type) {
-        throw InputError(where, "the .glb has an unexpected chunk; expected JSON, then BIN");
-    }
-    if (length > bytes.size() - head) {
-        throw InputError(where, "a chunk of the .glb claims " + std::to_string(length) +
-                                    " bytes; the file has " + std::to_string(bytes.size() - head) +
-                                    " left");
-    }
+    if (little_endian(bytes, 4) != type)
+        refuse(where, "the .glb has an unexpected chunk; expected JSON, then BIN");
+    if (length > bytes.size() - head)
+        refuse(where, "a chunk of the .glb claims {} bytes; the file has {} left", length,
+               bytes.size() - head);
     const std::string_view chunk = bytes.substr(head, length);
     bytes.remove_prefix(head + length);
     return chunk;
@@ -73,13 +70,10 @@ std::string glb_of(std::string header, std::string_view binary) {
 std::string surfaces_of(std::string_view text, const Location& where) {
     constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
     constexpr int max_depth = 64;
-    if (text.size() > max_json_bytes) {
-        throw InputError(where,
-                         "holds more than 256 MiB of JSON; put the vertices into a .glb or a .bin "
-                         "file");
-    }
-    if (is_nested_deeper(text, max_depth))
-        throw InputError(where, "the JSON is nested more than 64 deep");
+    if (text.size() > max_json_bytes)
+        refuse(where,
+               "holds more than 256 MiB of JSON; put the vertices into a .glb or a .bin file");
+    if (is_nested_deeper(text, max_depth)) refuse(where, "the JSON is nested more than 64 deep");
     // Unread parts are not even stored: they may be much larger than the meshes.
     const auto is_read = [](int depth, json::parse_event_t event, const json& parsed) {
         constexpr int file_depth = 1;
@@ -100,16 +94,13 @@ std::string surfaces_of(std::string_view text, const Location& where) {
     const json::json_pointer place("/asset/version");
     const bool has_version = document.contains(place) && document[place].is_string();
     const std::string version = has_version ? document[place].get<std::string>() : "";
-    if (version.empty())
-        throw InputError(where, "asset.version is missing; expected glTF version 2.0");
-    if (!version.starts_with("2.")) {
-        throw InputError(where,
-                         "is glTF version " + printable(version.substr(0, 20)) + "; expected 2.0");
-    }
+    if (version.empty()) refuse(where, "asset.version is missing; expected glTF version 2.0");
+    if (!version.starts_with("2."))
+        refuse(where, "is glTF version {}; expected 2.0", printable(version.substr(0, 20)));
     for (const json& mesh : document["meshes"]) {
         // tinygltf takes an object for an array of none.
         if (mesh.is_object() && mesh.contains("primitives") && !mesh["primitives"].is_array())
-            throw InputError(where, "the primitives of a mesh are not an array");
+            refuse(where, "the primitives of a mesh are not an array");
     }
     for (json& buffer : document["buffers"]) {
         if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
@@ -127,16 +118,12 @@ std::string surfaces_of(std::string_view text, const Location& where) {
 std::string reduced_glb(std::string_view bytes, const Location& where) {
     constexpr std::uint32_t binary_type = 0x004E4942;
     constexpr std::size_t head = 12;
-    if (bytes.size() < head) throw InputError(where, "the .glb ends within its header");
-    if (little_endian(bytes, 4) != 2) {
-        throw InputError(where, "is a .glb of version " + std::to_string(little_endian(bytes, 4)) +
-                                    "; expected 2");
-    }
+    if (bytes.size() < head) refuse(where, "the .glb ends within its header");
+    if (little_endian(bytes, 4) != 2)
+        refuse(where, "is a .glb of version {}; expected 2", little_endian(bytes, 4));
     const std::size_t length = little_endian(bytes, 8);
-    if (length > bytes.size() || length < head) {
-        throw InputError(where, "the .glb claims " + std::to_string(length) +
-                                    " bytes; the file has " + std::to_string(bytes.size()));
-    }
+    if (length > bytes.size() || length < head)
+        refuse(where, "the .glb claims {} bytes; the file has {}", length, bytes.size());
     bytes = bytes.substr(head, length - head);
     const std::string_view text = take_chunk(bytes, json_type, where);
     const std::string_view rest = bytes;
@@ -149,19 +136,18 @@ void require_json(const std::filesystem::path& path, std::string_view bytes) {
     const Location where{path.string()};
     constexpr std::array<std::string_view, 5> others{".fbx", ".dae", ".3ds", ".blend", ".off"};
     if (contains(others, in_lower_case(path.extension().string()))) {
-        const std::string name = path.stem().string();
-        throw InputError(where,
-                         "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: "
-                         "assimp export " +
-                             name + path.extension().string() + " " + name + ".glb");
+        refuse(where,
+               "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: assimp export "
+               "{} {}.glb",
+               path.filename().string(), path.stem().string());
     }
     const std::string_view text = trim(without_byte_order_mark(bytes));
     if (text.starts_with('{') || text.starts_with('[')) return;
     const std::string format(known_format(bytes));
     const bool is_picture = format.find("picture") != std::string::npos;
-    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") + "not glTF; " +
-                                (is_picture ? "an image of heights belongs into scene.heightmap"
-                                            : "a .gltf is JSON, which begins with '{'"));
+    refuse(where, "is {}not glTF; {}", format.empty() ? "" : format + ", ",
+           is_picture ? "an image of heights belongs into scene.heightmap"
+                      : "a .gltf is JSON, which begins with '{'");
 }
 
 void check_extensions(const tinygltf::Model& model, const Location& where) {
@@ -170,20 +156,16 @@ void check_extensions(const tinygltf::Model& model, const Location& where) {
     constexpr std::array<std::string_view, 4> appearance{"KHR_materials_", "KHR_texture_",
                                                          "EXT_texture_", "KHR_lights_"};
     const auto check = [&](const std::string& name, bool is_required) {
-        if (contains(compressed, name)) {
-            throw InputError(where, "is compressed with " + name +
-                                        ", which is not read; export it uncompressed");
-        }
-        if (name == "EXT_mesh_gpu_instancing") {
-            throw InputError(where, "places copies with " + name +
-                                        ", which is not read; export one node a copy");
-        }
+        if (contains(compressed, name))
+            refuse(where, "is compressed with {}, which is not read; export it uncompressed", name);
+        if (name == "EXT_mesh_gpu_instancing")
+            refuse(where, "places copies with {}, which is not read; export one node a copy", name);
         const bool is_harmless =
             name == "KHR_mesh_quantization" ||
             std::any_of(appearance.begin(), appearance.end(),
                         [&](std::string_view prefix) { return name.starts_with(prefix); });
         if (is_required && !is_harmless)
-            throw InputError(where, "requires the extension '" + name + "', which is not read");
+            refuse(where, "requires the extension '{}', which is not read", name);
     };
     for (const std::string& name : model.extensionsUsed)
         check(name, false);
@@ -227,10 +209,10 @@ tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
     callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
     callbacks.FileExists = [](const std::string& name, void* user) {
         if (stays_below(name)) return !name.empty();
-        throw InputError(
-            Location{static_cast<const BufferFiles*>(user)->gltf.string()},
-            "the buffer '" + printable(name.substr(0, 200)) +
-                "' is not in the folder of the glTF file or below, where buffers must lie");
+        refuse({static_cast<const BufferFiles*>(user)->gltf.string()},
+               "the buffer '{}' is not in the folder of the glTF file or below, where buffers must "
+               "lie",
+               printable(name.substr(0, 200)));
     };
     callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
                                  const std::string& name, void* user) {
@@ -273,8 +255,7 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     }
     check_extensions(model, where);
     // tinygltf continues after some errors, and quotes whole data URIs in its messages.
-    if (!is_read || !error.empty())
-        throw InputError(where, "is not a valid glTF: " + error.substr(0, 300));
+    if (!is_read || !error.empty()) refuse(where, "is not a valid glTF: {}", error.substr(0, 300));
     check_extras(model, where);
     return model;
 }

@@ -62,10 +62,8 @@ SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit) {
             if (!is_finite(points) || !has_area(points)) continue;
             for (const std::uint32_t vertex : {a, b, c}) {
                 farthest = farthest.cwiseMax(primitive.positions[vertex].cwiseAbs());
-                if (placed[vertex].cwiseAbs().maxCoeff() > furthest_m) {
-                    throw InputError(primitive.where +
-                                     ": a vertex lies more than 1e8 m from the origin");
-                }
+                if (placed[vertex].cwiseAbs().maxCoeff() > furthest_m)
+                    refuse(primitive.where, "a vertex lies more than 1e8 m from the origin");
                 extent.box.extend(placed[vertex]);
             }
         }
@@ -107,9 +105,10 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
     repeats.by_file.assign(open.size(), nullptr);
     if (triangles <= sharing_threshold) return repeats;
     if (triangles > max_triangles) {
-        throw InputError(open[alike.begin()->second.front()].placed->place,
-                         "repeated files have " + std::to_string(triangles) +
-                             " triangles together with this one; at most 4294901760 are supported");
+        refuse(open[alike.begin()->second.front()].placed->place,
+               "repeated files have {} triangles together with this one; at most 4294901760 are "
+               "supported",
+               triangles);
     }
     for (const auto& group : alike) {
         const OpenFile& first = open[group.second.front()];

@@ -7,8 +7,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/error.h"
-
 namespace sonarsim {
 
 namespace {
@@ -16,10 +14,6 @@ namespace {
 constexpr std::size_t max_count = std::size_t{1} << 28;
 /// Elements without a bufferView are zeros, which take memory and no bytes of the file.
 constexpr std::size_t max_zeros = std::size_t{1} << 20;
-
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-    throw InputError(where + ": " + what);
-}
 
 template <class T>
 double number(const unsigned char* bytes, bool is_normalized) {
@@ -53,63 +47,61 @@ const ComponentType* component_of(int number_of_type) {
 /// Finds `count` >= 1 elements from `offset` on in a buffer view and checks that they lie within
 /// their buffer.
 Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset,
-                std::size_t element_bytes, std::size_t count, const std::string& where) {
+                std::size_t element_bytes, std::size_t count, const Location& where) {
     const std::string name = fmt::format("bufferView {}", view_index);
     const auto index = static_cast<std::size_t>(view_index);
-    if (index >= model.bufferViews.size()) refuse(where, name + " does not exist");
+    if (index >= model.bufferViews.size()) refuse(where, "{} does not exist", name);
     const tinygltf::BufferView& view = model.bufferViews[index];
     const auto buffer = static_cast<std::size_t>(view.buffer);
     if (buffer >= model.buffers.size())
-        refuse(where, fmt::format("{} lies in buffer {}, which does not exist", name, view.buffer));
+        refuse(where, "{} lies in buffer {}, which does not exist", name, view.buffer);
     const auto& bytes = model.buffers[buffer].data;
     if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
-        refuse(where, fmt::format("{} reaches beyond the end of its buffer ({} bytes)", name,
-                                  bytes.size()));
+        refuse(where, "{} reaches beyond the end of its buffer ({} bytes)", name, bytes.size());
     }
     const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
     if (stride < element_bytes) {
-        refuse(where, fmt::format("byteStride {} is less than the size of an element, {}", stride,
-                                  element_bytes));
+        refuse(where, "byteStride {} is less than the size of an element, {}", stride,
+               element_bytes);
     }
     // `max_count` limits the count, and strides are at most 252, so that this does not overflow.
     const std::size_t needed = stride * (count - 1) + element_bytes;
     if (needed > view.byteLength || offset > view.byteLength - needed) {
-        refuse(where, fmt::format("claims {} elements; {} is too short for them ({} bytes)", count,
-                                  name, view.byteLength));
+        refuse(where, "claims {} elements; {} is too short for them ({} bytes)", count, name,
+               view.byteLength);
     }
     return {bytes.data() + view.byteOffset + offset, stride};
 }
 
 void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
-                 std::size_t element_bytes, Accessor& to, const std::string& where) {
+                 std::size_t element_bytes, Accessor& to, const Location& where) {
     const auto& sparse = from.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     if (count == 0 || count > to.count) {
-        refuse(where, fmt::format("sparse count {} is not between 1 and the accessor's {}", count,
-                                  to.count));
+        refuse(where, "sparse count {} is not between 1 and the accessor's {}", count, to.count);
     }
     const ComponentType* const type = component_of(sparse.indices.componentType);
     if (!type || !type->is_index) refuse(where, "sparse indices must be unsigned integers");
     const Elements indices = locate(model, sparse.indices.bufferView,
                                     static_cast<std::size_t>(sparse.indices.byteOffset),
-                                    type->bytes, count, where + ": sparse indices");
+                                    type->bytes, count, {where.file + ": sparse indices"});
     to.sparse =
         locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
-               element_bytes, count, where + ": sparse values");
+               element_bytes, count, {where.file + ": sparse values"});
     for (std::size_t i = 0; i < count; ++i) {
         const auto at = static_cast<std::uint32_t>(type->read(indices.at(i), false));
         if (at >= to.count || (i > 0 && at <= to.sparse_at.back()))
-            refuse(where, fmt::format("sparse indices must ascend and stay below {}", to.count));
+            refuse(where, "sparse indices must ascend and stay below {}", to.count);
         to.sparse_at.push_back(at);
     }
 }
 
-/// An accessor to positions (VEC3), or to vertex indices (SCALAR, unsigned). InputError starting
-/// with `where` if its type is wrong or it claims more than its buffer holds.
+/// An accessor to positions (VEC3), or to vertex indices (SCALAR, unsigned). InputError at
+/// `where` if its type is wrong or it claims more than its buffer holds.
 Accessor open_accessor(const tinygltf::Model& model, int index, bool is_positions,
-                       const std::string& where) {
+                       const Location& where) {
     if (static_cast<std::size_t>(index) >= model.accessors.size())
-        refuse(where, fmt::format("accessor {} does not exist", index));
+        refuse(where, "accessor {} does not exist", index);
     const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
     const ComponentType* const type = component_of(from.componentType);
     if (is_positions && !(type && type->is_position))
@@ -117,10 +109,9 @@ Accessor open_accessor(const tinygltf::Model& model, int index, bool is_position
     if (!is_positions && !(type && type->is_index))
         refuse(where, "indices must be unsigned 8-, 16- or 32-bit integers");
     if (from.type != (is_positions ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR))
-        refuse(where,
-               std::string("expected an accessor of type ") + (is_positions ? "VEC3" : "SCALAR"));
+        refuse(where, "expected an accessor of type {}", is_positions ? "VEC3" : "SCALAR");
     if (from.count == 0 || from.count > max_count)
-        refuse(where, fmt::format("count {} is not between 1 and {}", from.count, max_count));
+        refuse(where, "count {} is not between 1 and {}", from.count, max_count);
     Accessor to;
     to.count = from.count;
     to.component = type;
@@ -132,8 +123,8 @@ Accessor open_accessor(const tinygltf::Model& model, int index, bool is_position
     } else if (!from.sparse.isSparse) {
         refuse(where, "has neither a bufferView nor sparse elements");
     } else if (from.count > max_zeros) {
-        refuse(where, fmt::format("count {} needs a bufferView; without one it is at most {}",
-                                  from.count, max_zeros));
+        refuse(where, "count {} needs a bufferView; without one it is at most {}", from.count,
+               max_zeros);
     }
     if (from.sparse.isSparse) open_sparse(model, from, element_bytes, to, where);
     return to;
@@ -169,28 +160,28 @@ std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
 
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
-                                             const std::string& where) {
+                                             const Location& where) {
     if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        refuse(where, fmt::format("mode {} is not one of glTF's, 0 to 6", primitive.mode));
+        refuse(where, "mode {} is not one of glTF's, 0 to 6", primitive.mode);
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
     const auto attribute = primitive.attributes.find("POSITION");
     if (attribute == primitive.attributes.end()) refuse(where, "has no POSITION");
 
     TriangleSource source;
     source.mode = primitive.mode;
-    source.positions = open_accessor(model, attribute->second, true, where + ": POSITION");
+    source.positions = open_accessor(model, attribute->second, true, {where.file + ": POSITION"});
     if (primitive.indices >= 0)
-        source.indices = open_accessor(model, primitive.indices, false, where + ": indices");
+        source.indices = open_accessor(model, primitive.indices, false, {where.file + ": indices"});
     const std::size_t corners = source.indices ? source.indices->count : source.positions.count;
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     if (is_list ? corners % 3 != 0 : corners < 3)
-        refuse(where, fmt::format("{} corners do not make whole triangles", corners));
+        refuse(where, "{} corners do not make whole triangles", corners);
     source.count = is_list ? corners / 3 : corners - 2;
     return source;
 }
 
 std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& source,
-                                                         const std::string& where) {
+                                                         const Location& where) {
     std::vector<std::array<std::uint32_t, 3>> triangles(source.count);
     for (std::size_t i = 0; i < source.count; ++i) {
         std::array<std::size_t, 3> corners{i, i + 1, i + 2};
@@ -201,8 +192,8 @@ std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& s
                                                         : static_cast<std::uint32_t>(corners[k]);
             triangles[i][k] = vertex;
             if (vertex < source.positions.count) continue;
-            refuse(where, fmt::format("index {} is out of range; there are {} vertices", vertex,
-                                      source.positions.count));
+            refuse(where, "index {} is out of range; there are {} vertices", vertex,
+                   source.positions.count);
         }
     }
     return triangles;

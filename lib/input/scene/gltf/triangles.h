@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "core/error.h"
 
 namespace sonarsim {
 
@@ -55,17 +56,17 @@ struct TriangleSource {
     std::size_t count = 0;
 };
 
-/// Opens a primitive of triangles, a strip or a fan; nullopt for points and lines. InputError
-/// starting with `where`.
+/// Opens a primitive of triangles, a strip or a fan; nullopt for points and lines. InputError at
+/// `where`.
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
-                                             const std::string& where);
+                                             const Location& where);
 
 /// The positions of all vertices. Normalised integers become numbers in [-1, 1].
 std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source);
 
-/// The vertices of all triangles. InputError starting with `where` if there is no such vertex.
+/// The vertices of all triangles. InputError at `where` if there is no such vertex.
 std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& source,
-                                                         const std::string& where);
+                                                         const Location& where);
 
 }  // namespace sonarsim

@@ -1,14 +1,10 @@
 #include "input/scene/heightmap/height_model.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -105,22 +101,21 @@ void require_room(const HeightGrid& heights, std::size_t across, std::size_t dow
     const double columns = static_cast<double>(heights.columns) * static_cast<double>(across);
     const double rows = static_cast<double>(heights.rows) * static_cast<double>(down);
     if (columns * rows <= static_cast<double>(max_heights)) return;
-    throw InputError(where, fmt::format("scene.heightmap.cell_m makes {:.0f} x {:.0f} heights of "
-                                        "it, and at most {} have room; make cell_m longer",
-                                        columns, rows, max_heights));
+    refuse(where,
+           "scene.heightmap.cell_m makes {:.0f} x {:.0f} heights of it, and at most {} have room; "
+           "make cell_m longer",
+           columns, rows, max_heights);
 }
 
 void require_heights(const Image& image, const Location& where) {
     if (image.channels != 1) {
-        throw InputError(where,
-                         fmt::format("has {} channels, and a heightmap has one: take one out, "
-                                     "as with gdal_translate -b 1",
-                                     image.channels));
+        refuse(
+            where,
+            "has {} channels, and a heightmap has one: take one out, as with gdal_translate -b 1",
+            image.channels);
     }
-    if (image.width < 2 || image.height < 2) {
-        throw InputError(where, fmt::format("has {} x {} pixels, and a surface needs 2 x 2",
-                                            image.width, image.height));
-    }
+    if (image.width < 2 || image.height < 2)
+        refuse(where, "has {} x {} pixels, and a surface needs 2 x 2", image.width, image.height);
 }
 
 /// True for a number that looks like the mark of an unknown height.
@@ -153,11 +148,10 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     window.for_each([&](int row, int column) {
         const float value = *image.pixel(row, column);
         if (!std::isnan(value) && is_odd(value, image)) {
-            throw InputError(
-                where,
-                fmt::format("row {}, column {}: {} looks like the mark of an unknown "
-                            "height; mark it in the file: gdal_translate -a_nodata {}",
-                            row, column, number_text(double{value}), number_text(double{value})));
+            refuse(where,
+                   "row {0}, column {1}: {2} looks like the mark of an unknown height; mark it in "
+                   "the file: gdal_translate -a_nodata {2}",
+                   row, column, number_text(double{value}));
         }
         heights.values.push_back(value);
     });
@@ -170,7 +164,7 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
         Eigen::Array2f(across, down));
     const std::vector<std::uint32_t> corners =
         corners_of_cells(heights, grid.column_m * grid.row_m > 0.0);
-    if (corners.empty()) throw InputError(where, "has no three neighbours with known heights");
+    if (corners.empty()) refuse(where, "has no three neighbours with known heights");
     tinygltf::Model model;
     const int mesh = add_mesh(model, "heightmap");
     add_triangles(model, mesh, add_positions(model, positions), corners, -1);

@@ -1,7 +1,5 @@
 #include "input/scene/images/image_place.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -56,15 +54,15 @@ std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
         words >> word;
         const auto value = parse_number(word);
         if (!value)
-            throw InputError(where,
-                             "is not a world file, which has six numbers: the width of a pixel, 0, "
-                             "0, its negative height, and x and y of the first pixel's centre");
+            refuse(where,
+                   "is not a world file, which has six numbers: the width of a pixel, 0, 0, its "
+                   "negative height, and x and y of the first pixel's centre");
         number = *value;
     }
     if (numbers[1] != 0.0 || numbers[2] != 0.0) {
-        throw InputError(where,
-                         "its rows and columns do not run along east and north; make a map of it "
-                         "whose first row is the north, as with gdalwarp");
+        refuse(where,
+               "its rows and columns do not run along east and north; make a map of it whose first "
+               "row is the north, as with gdalwarp");
     }
     return PixelGrid{numbers[4], numbers[5], numbers[0], numbers[3]};
 }
@@ -73,15 +71,15 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& 
                          const Location& where) {
     if (pixel_m > 0.0) return {0.5 * pixel_m, (image.height - 0.5) * pixel_m, pixel_m, -pixel_m};
     if (!image.grid) {
-        throw InputError(where,
-                         "does not say how large its pixels are: it has no GeoTIFF tags, "
-                         "and no world file lies next to it; write " +
-                             section + ".pixel_m");
+        refuse(where,
+               "does not say how large its pixels are: it has no GeoTIFF tags, and no world file "
+               "lies next to it; write {}.pixel_m",
+               section);
     }
     if (image.in_degrees) {
-        throw InputError(where,
-                         "has its pixels in degrees; make a map in metres of it, as with "
-                         "gdalwarp -t_srs EPSG:32632");
+        refuse(where,
+               "has its pixels in degrees; make a map in metres of it, as with gdalwarp -t_srs "
+               "EPSG:32632");
     }
     return *image.grid;
 }
@@ -93,10 +91,10 @@ PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
         pixels_between(box_m.min().y(), box_m.max().y(), grid.y_m, grid.row_m, image.height),
         pixels_between(box_m.min().x(), box_m.max().x(), grid.x_m, grid.column_m, image.width)};
     if (window.width() * window.height() <= max_pixels) return window;
-    throw InputError(where, fmt::format("the mission needs {} x {} pixels of it, and at most {} "
-                                        "have room; make it coarser with gdal_translate -outsize "
-                                        "50% 50%, or cut a part out with gdal_translate -projwin",
-                                        window.width(), window.height(), max_pixels));
+    refuse(where,
+           "the mission needs {} x {} pixels of it, and at most {} have room; make it coarser with "
+           "gdal_translate -outsize 50% 50%, or cut a part out with gdal_translate -projwin",
+           window.width(), window.height(), max_pixels);
 }
 
 }  // namespace sonarsim

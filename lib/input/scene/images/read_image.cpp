@@ -1,7 +1,5 @@
 #include "input/scene/images/read_image.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,12 +39,11 @@ void require_readable(const std::filesystem::path& path, const Location& where) 
     constexpr std::uintmax_t max_bytes = std::uintmax_t{1} << 31;
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw InputError(where, "no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(where, "is not a regular file");
+    if (!std::filesystem::exists(status)) refuse(where, "no such file");
+    if (!std::filesystem::is_regular_file(status)) refuse(where, "is not a regular file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error || size > max_bytes)
-        throw InputError(where,
-                         "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
+        refuse(where, "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
 }
 
 struct Reading {
@@ -75,16 +72,7 @@ Reading read_with_module(const std::filesystem::path& path, const std::string& f
     if (read(format.c_str(), path.c_str(), start, &reading, error.data(), error.size()) == 0)
         return reading;
     std::ranges::replace(error, '\n', ' ');
-    throw InputError(where, "cannot be read: " + printable(error.data()));
-}
-
-[[noreturn]] void refuse_size(const SonarsimImageHead& head, const Location& where) {
-    throw InputError(
-        where,
-        fmt::format("has {} x {} pixels of {} value{}, and at most 2^26 values are read, 2^22 "
-                    "of a row; make it coarser with gdal_translate -outsize 50% 50%, or cut "
-                    "a part out with gdal_translate -projwin",
-                    head.width, head.height, head.channels, head.channels == 1 ? "" : "s"));
+    refuse(where, "cannot be read: {}", printable(error.data()));
 }
 
 void set_reference(const SonarsimImageHead& head, const std::filesystem::path& path,
@@ -96,7 +84,7 @@ void set_reference(const SonarsimImageHead& head, const std::filesystem::path& p
     if (!image.grid) return;
     const auto& [x_m, y_m, column_m, row_m] = *image.grid;
     if (std::isfinite(x_m + y_m + column_m + row_m) && column_m != 0.0 && row_m != 0.0) return;
-    throw InputError(where, "has no valid pixel size or origin; export it again");
+    refuse(where, "has no valid pixel size or origin; export it again");
 }
 
 /// Makes the pixels that have no value NaN. Many files mark them with the largest float, but write
@@ -106,9 +94,10 @@ void mark_unknown(const SonarsimImageHead& head, const Location& where, Image& i
     if (text.empty()) return;
     const std::optional<double> mark = parse_number(text);
     if (!mark) {
-        throw InputError(where, "has the mark of unknown pixels '" + printable(text) +
-                                    "' (GDAL_NODATA), which is not a number; set it again, as with "
-                                    "gdal_translate -a_nodata -9999");
+        refuse(where,
+               "has the mark of unknown pixels '{}' (GDAL_NODATA), which is not a number; set it "
+               "again, as with gdal_translate -a_nodata -9999",
+               printable(text));
     }
     if (std::isnan(*mark)) return;
     image.has_no_data = true;
@@ -140,12 +129,18 @@ Image read_image(const std::filesystem::path& path) {
     const std::string format = image_format(bytes);
     if (format.empty()) {
         const std::string_view known = known_format(bytes);
-        throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
-                                    "; PNG, TIFF and OpenEXR are read");
+        refuse(where, "is {}; PNG, TIFF and OpenEXR are read",
+               known.empty() ? "not an image" : known);
     }
     Reading reading = read_with_module(path, format, where, &make_room);
     const SonarsimImageHead& head = reading.head;
-    if (reading.image.values.empty()) refuse_size(head, where);
+    if (reading.image.values.empty()) {
+        refuse(where,
+               "has {} x {} pixels of {} value{}, and at most 2^26 values are read, 2^22 of a row; "
+               "make it coarser with gdal_translate -outsize 50% 50%, or cut a part out with "
+               "gdal_translate -projwin",
+               head.width, head.height, head.channels, head.channels == 1 ? "" : "s");
+    }
     Image& image = reading.image;
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);

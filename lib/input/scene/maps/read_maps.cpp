@@ -83,22 +83,21 @@ MaterialTexels read_material_map(
     const Location where{map.file.string()};
     const bool colours = image.colours() == 3;
     if (image.colours() > 3)
-        throw InputError(where, "has " + std::to_string(image.channels) +
-                                    " channels; a map of materials has one with numbers, or three "
-                                    "with colours");
+        refuse(where,
+               "has {} channels; a map of materials has one with numbers, or three with colours",
+               image.channels);
     if (colours && (image.bits != 8 || image.is_float))
-        throw InputError(where,
-                         "has colours of " + std::to_string(image.bits) +
-                             " bits; make 8 of them, as with gdal_translate -ot Byte -scale");
+        refuse(where,
+               "has colours of {} bits; make 8 of them, as with gdal_translate -ot Byte -scale",
+               image.bits);
     MaterialTexels out;
     std::map<double, std::uint16_t> choices;
     for (const auto& [key, material] : materials) {
         const std::optional<double> number = colours ? parse_colour(key) : parse_number(key);
         if (!number) {
-            throw InputError(where, (colours ? "has colours" : "has one channel of numbers") +
-                                        std::string(", and ") + sediment_section +
-                                        ".materials has '" + printable(key) + "'; write " +
-                                        (colours ? "\"#c8b478\": MATERIAL" : "7: MATERIAL"));
+            refuse(where, "has {}, and {}.materials has '{}'; write {}: MATERIAL",
+                   colours ? "colours" : "one channel of numbers", sediment_section, printable(key),
+                   colours ? "\"#c8b478\"" : "7");
         }
         const auto same = std::ranges::find(out.materials, material);
         choices[*number] = static_cast<std::uint16_t>(same - out.materials.begin());
@@ -113,11 +112,9 @@ MaterialTexels read_material_map(
         const std::string text = colours
                                      ? fmt::format("\"#{:06x}\"", static_cast<std::uint32_t>(key))
                                      : number_text(key);
-        throw InputError(
-            where, fmt::format("row {}, column {}: {} has no material; add {}: MATERIAL to "
-                               "{}.materials{}",
-                               row, column, text, text, sediment_section,
-                               colours ? "" : ", or mark it: gdal_translate -a_nodata " + text));
+        refuse(where, "row {}, column {}: {} has no material; add {}: MATERIAL to {}.materials{}",
+               row, column, text, text, sediment_section,
+               colours ? "" : ", or mark it: gdal_translate -a_nodata " + text);
     };
     out.frame = for_each_texel(map, image, sediment_section, scene, use);
     return out;
@@ -129,21 +126,21 @@ StrengthTexels read_strength_map(const AppliedMapConfig& map, const Scene& scene
     const Image image = read_image(map.file);
     const Location where{map.file.string()};
     if (image.colours() > 1)
-        throw InputError(where, "has " + std::to_string(image.channels) +
-                                    " channels, and a map of decibels has one: take one out, as "
-                                    "with gdal_translate -b 1");
+        refuse(where,
+               "has {} channels, and a map of decibels has one: take one out, as with "
+               "gdal_translate -b 1",
+               image.channels);
     StrengthTexels out;
     const auto use = [&](const float* pixel, int row, int column) {
         if (pixel == nullptr) return out.factor.push_back(1.0F);
         constexpr double max_db = 100.0;
         const double db = *pixel;
         if (!(std::fabs(db) <= max_db)) {
-            throw InputError(where,
-                             fmt::format("row {0}, column {1}: {2} dB, and at most 100 are "
-                                         "believed; mark it if it is unknown (gdal_translate "
-                                         "-a_nodata {2}), else make it decibels (gdal_translate "
-                                         "-ot Float32 -scale)",
-                                         row, column, number_text(db)));
+            refuse(where,
+                   "row {0}, column {1}: {2} dB, and at most 100 are believed; mark it if it is "
+                   "unknown (gdal_translate -a_nodata {2}), else make it decibels (gdal_translate "
+                   "-ot Float32 -scale)",
+                   row, column, number_text(db));
         }
         constexpr double per_db = 0.23025850929940457;  // ln(10) / 10
         out.factor.push_back(static_cast<float>(exponential(per_db * db)));
@@ -156,9 +153,9 @@ StrengthTexels read_strength_map(const AppliedMapConfig& map, const Scene& scene
 std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
     const std::vector<std::string> patterns = bottom_patterns(config);
     if (patterns.empty()) {
-        throw InputError(config.place,
-                         "maps need ground to lie on; write scene.bottom: [NAME] with the nodes of "
-                         "scene.file that are the ground");
+        refuse(config.place,
+               "maps need ground to lie on; write scene.bottom: [NAME] with the nodes of "
+               "scene.file that are the ground");
     }
     std::vector<char> on(scene.instances.size(), 0);
     for (std::size_t i = 0; i < on.size(); ++i)

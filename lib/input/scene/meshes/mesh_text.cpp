@@ -44,14 +44,14 @@ std::string mended_text(std::string_view text, const Location& file) {
         rest = key == "v" ? rest.substr(0, rest.find('#')) : "";
         for (std::string_view word; !(word = take_word(rest)).empty(); ++count) {
             if (!parse_number(word))
-                throw InputError({file.file, number}, "'" + printable(word.substr(0, 60)) +
-                                                          "' of a vertex is not a number");
+                refuse({file.file, number}, "'{}' of a vertex is not a number",
+                       printable(word.substr(0, 60)));
             out.append(word.starts_with('.') ? " 0" : " ").append(word);
         }
         if (key == "v" && count != 3 && count != 4 && count != 6)
-            throw InputError({file.file, number},
-                             "a vertex has " + std::to_string(count) +
-                                 " numbers; expected x, y, z, and maybe a weight or a colour");
+            refuse({file.file, number},
+                   "a vertex has {} numbers; expected x, y, z, and maybe a weight or a colour",
+                   count);
         out += '\n';
     }
     return out;

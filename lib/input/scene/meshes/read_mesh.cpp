@@ -98,21 +98,17 @@ PlyHeader take_header(std::string_view& bytes, const Location& file) {
     PlyHeader header;
     for (int number = 1;; ++number) {
         const Location where{file.file, number};
-        if (bytes.empty())
-            throw InputError(where,
-                             std::string("the header of the PLY has no end_header") + cut_off);
+        if (bytes.empty()) refuse(where, "the header of the PLY has no end_header{}", cut_off);
         const std::string_view line = take_line(bytes);
         if (number == 1 && line != "ply")
-            throw InputError(where, "is not a PLY: its first line is not 'ply'");
+            refuse(where, "is not a PLY: its first line is not 'ply'");
         if (line == "end_header") break;
         if (read_line(line, header)) continue;
-        throw InputError(
-            where, "'" + printable(line.substr(0, 100)) + "' is not a line of a PLY's header");
+        refuse(where, "'{}' is not a line of a PLY's header", printable(line.substr(0, 100)));
     }
     for (const PlyElement& element : header.elements) {
-        if (!element.properties.empty()) continue;
-        throw InputError(file,
-                         "element '" + printable(element.name) + "' of the PLY has no property");
+        if (element.properties.empty())
+            refuse(file, "element '{}' of the PLY has no property", printable(element.name));
     }
     return header;
 }
@@ -169,15 +165,15 @@ std::string_view whole_stl(std::string& text, const Location& where) {
     if (may_be_text && size != bytes.size()) {
         if (bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096))
                 .rfind("endsolid") == std::string_view::npos)
-            throw InputError(where, std::string("the STL has no endsolid") + cut_off);
+            refuse(where, "the STL has no endsolid{}", cut_off);
         return text = mended_text(text, where);
     }
-    if (bytes.size() < head) throw InputError(where, "is not an STL: it is too short for one");
+    if (bytes.size() < head) refuse(where, "is not an STL: it is too short for one");
     if (size > bytes.size()) {
-        throw InputError(where, "is not an STL, or its end is missing: it claims " +
-                                    std::to_string(claimed) + " triangles, which take " +
-                                    std::to_string(size) + " bytes, and has " +
-                                    std::to_string(bytes.size()) + "; copy or export it again");
+        refuse(where,
+               "is not an STL, or its end is missing: it claims {} triangles, which take {} bytes, "
+               "and has {}; copy or export it again",
+               claimed, size, bytes.size());
     }
     return bytes.substr(0, size);
 }
@@ -189,17 +185,16 @@ void require_whole_ply(std::string_view bytes, const Location& where) {
     for (const PlyElement& element : header.elements) {
         // libassimp reads only the first triangle of a strip.
         if (element.name == "tristrips" && element.count > 0) {
-            throw InputError(where,
-                             "has its surface as strips of triangles (tristrips), which are not "
-                             "read; save it with faces, as MeshLab does");
+            refuse(where,
+                   "has its surface as strips of triangles (tristrips), which are not read; save "
+                   "it with faces, as MeshLab does");
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             if (take_element(bytes, header, element)) continue;
-            throw InputError(where, "element '" + printable(element.name) +
-                                        "' of the PLY ends or is faulty in number " +
-                                        std::to_string(i + 1) + " of " +
-                                        std::to_string(element.count) +
-                                        "; copy or export the file again");
+            refuse(where,
+                   "element '{}' of the PLY ends or is faulty in number {} of {}; copy or export "
+                   "the file again",
+                   printable(element.name), i + 1, element.count);
         }
     }
 }
@@ -271,11 +266,10 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
         module_symbol(mesh_module, mesh_module_symbol, "libassimp-dev", where));
     if (read(format.c_str(), whole.data(), whole.size(), add, &builder, error.data(),
              error.size()) != 0) {
-        throw InputError(where, "is not a valid " + title + "; export it again (libassimp says: " +
-                                    printable(error.data()) + ")");
+        refuse(where, "is not a valid {}; export it again (libassimp says: {})", title,
+               printable(error.data()));
     }
-    if (builder.model.meshes.empty())
-        throw InputError(where, "has no faces; is it an " + title + "?");
+    if (builder.model.meshes.empty()) refuse(where, "has no faces; is it an {}?", title);
     return std::move(builder.model);
 }
 

@@ -1,7 +1,5 @@
 #include "input/scene/placing/scatter.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -68,13 +66,12 @@ struct Refusals {
 
 [[noreturn]] void give_up(const ScatterConfig& rule, std::size_t object, std::size_t count,
                           const Refusals& refusals) {
-    throw InputError(
-        rule.place,
-        fmt::format("'{}': object {} of {} finds no room in {} tries: {} reach out of the area, {} "
-                    "come too near to other objects, {} have no bottom below; take a larger area, "
-                    "fewer or smaller objects or less spacing_m",
-                    printable(rule.name), object + 1, count, max_tries, refusals.outside,
-                    refusals.taken, refusals.no_bottom));
+    refuse(rule.place,
+           "'{}': object {} of {} finds no room in {} tries: {} reach out of the area, {} come too "
+           "near to other objects, {} have no bottom below; take a larger area, fewer or smaller "
+           "objects or less spacing_m",
+           printable(rule.name), object + 1, count, max_tries, refusals.outside, refusals.taken,
+           refusals.no_bottom);
 }
 
 Hull shifted(Hull hull, const Eigen::Vector2d& by) {
@@ -234,9 +231,10 @@ std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
         for (std::uint32_t redraw = 0; redraw < max_redraws && !placed; ++redraw)
             placed = place_one(rule, shapes, draws, redraw, bottom, taken, i, count);
         if (!placed) {
-            throw InputError(rule.place, fmt::format("'{}': object {} lies wholly below the bottom "
-                                                     "in all of {} draws; lower bury or bury_m",
-                                                     printable(rule.name), i + 1, max_redraws));
+            refuse(rule.place,
+                   "'{}': object {} lies wholly below the bottom in all of {} draws; lower bury or "
+                   "bury_m",
+                   printable(rule.name), i + 1, max_redraws);
         }
         if (!rule.overlap) taken.add(std::move(placed->ground));
         objects.push_back(placed->object);

@@ -62,10 +62,10 @@ void add_rocks(const SeabedConfig& config, std::uint64_t seed, Seabed& bed) {
                                    Eigen::Vector2d(grid.x_m(grid.columns - 1), grid.y_m(0)));
     const double count = area.volume() * config.rocks->density_per_m2;
     if (count > max_rocks) {
-        throw InputError(config.place, fmt::format("the part of the seabed that the mission needs "
-                                                   "has some {:.0f} rocks, and at most {:.0f} have "
-                                                   "room; lower their density_per_m2",
-                                                   count, max_rocks));
+        refuse(config.place,
+               "the part of the seabed that the mission needs has some {:.0f} rocks, and at most "
+               "{:.0f} have room; lower their density_per_m2",
+               count, max_rocks);
     }
     bed.rock_shapes = rock_shapes(seed);
     bed.rocks = rocks_in(area, *config.rocks, config.cell_m, seed);
@@ -179,16 +179,13 @@ BedGrid grid_of(const SeabedConfig& config, const Eigen::AlignedBox2d& window) {
     const auto y = cells_within(window.min().y(), window.max().y(), config.cell_m, size[1]);
     const double columns = x[1] - x[0];
     const double rows = y[1] - y[0];
-    if (columns < 2.0 || rows < 2.0) {
-        throw InputError(config.place,
-                         "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
-    }
+    if (columns < 2.0 || rows < 2.0)
+        refuse(config.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
     if (columns * rows > max_cells_of_bed) {
-        throw InputError(
-            config.place,
-            fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
-                        "have room; raise cell_m, or shorten the trajectory or the ranges",
-                        columns, rows));
+        refuse(config.place,
+               "the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 have "
+               "room; raise cell_m, or shorten the trajectory or the ranges",
+               columns, rows);
     }
     return {config.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
             static_cast<int>(columns), static_cast<int>(rows)};
