@@ -49,14 +49,6 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
     }
 }
 
-/// Throws InputError for a text that is not a CSV.
-void check_text(std::string_view text, const Location& file) {
-    const std::string_view format = known_format(text);
-    if (!format.empty()) refuse(file, "is {}, not a CSV", format);
-    if (text.find('\0') != std::string_view::npos)
-        refuse(file, "holds a zero byte; expected CSV as UTF-8 text");
-}
-
 /// Throws InputError for a line of another encoding.
 void check_utf8(std::string_view line, const Location& where) {
     while (!line.empty()) {
@@ -85,7 +77,11 @@ void check_header(std::string_view line, const Location& where) {
 void for_each_csv_row(std::string_view text, const std::string& file_name,
                       const std::function<void(CsvRow& row)>& visit) {
     text = without_byte_order_mark(text);
-    check_text(text, {file_name});
+    const Location file{file_name};
+    const std::string_view format = known_format(text);
+    if (!format.empty()) refuse(file, "is {}, not a CSV", format);
+    if (text.find('\0') != std::string_view::npos)
+        refuse(file, "holds a zero byte; expected CSV as UTF-8 text");
     std::size_t columns = 0;
     int header_line = 0;
     for (int number = 1; !text.empty(); ++number) {
@@ -107,7 +103,7 @@ void for_each_csv_row(std::string_view text, const std::string& file_name,
         }
         visit(row);
     }
-    if (columns == 0) refuse(Location{file_name}, "is empty; expected a header line");
+    if (columns == 0) refuse(file, "is empty; expected a header line");
 }
 
 CsvTable parse_csv(std::string_view text, const std::string& file_name) {

@@ -24,10 +24,12 @@ inline float polynomial(float x, float c0, Rest... rest) {
     return std::fma(x, polynomial(x, rest...), c0);
 }
 
-struct SinCos {
-    double sin;
-    double cos;
+template <class T>
+struct SineCosine {
+    T sin, cos;
 };
+using SinCos = SineCosine<double>;
+using SinCosFloat = SineCosine<float>;
 
 /// Sine and cosine, absolute error below 1e-15 for |x| up to 1e5 rad. Cody and Waite's reduction to
 /// [-pi/4, pi/4] (pi/2 in two parts), then the Taylor series.
@@ -157,11 +159,6 @@ inline double logarithm(double x) {
 inline double power(double x, double y) {
     return exponential(y * logarithm(x));
 }
-
-struct SinCosFloat {
-    float sin;
-    float cos;
-};
 
 /// Sine and cosine of an angle within [-pi, pi], absolute error below 1e-6. Taylor series of the
 /// half angle and one doubling.

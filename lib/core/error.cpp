@@ -1,7 +1,5 @@
 #include "core/error.h"
 
-#include <algorithm>
-
 #include "core/text.h"
 
 namespace sonarsim {
@@ -18,7 +16,7 @@ InputError::InputError(const Location& where, const std::string& what)
 
 void ErrorList::add(const InputError& error) {
     const std::string text = error.what();
-    if (std::ranges::find(kept_, text) != kept_.end()) return;
+    if (contains(kept_, text)) return;
     ++count_;
     if (kept_.size() < max_kept) kept_.push_back(text);
 }

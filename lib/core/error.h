@@ -64,8 +64,7 @@ class ErrorList {
 
 /// Runs `read`, which reads a file. Its error gets the place at which another file names this file,
 /// if that is known.
-template <class Read>
-auto read_named_at(const Location& place, const Read& read) {
+auto read_named_at(const Location& place, const auto& read) {
     try {
         return read();
     } catch (const InputError& error) {

@@ -24,7 +24,7 @@ std::string reason() {
 /// A likely mistake in the path of a file that does not exist; "" if there is none.
 std::string hint_of_path(const std::filesystem::path& path) {
     if (path.string().find('\\') != std::string::npos) return "; separate folders by '/', not '\\'";
-    if (std::ranges::find(path, "~") != path.end())
+    if (contains(path, "~"))
         return "; '~' is not replaced by the home folder: write the whole path";
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     std::error_code absent;

@@ -1,6 +1,7 @@
 #include "core/hash.h"
 
 #include <nettle/sha2.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <array>
 #include <cstdint>
@@ -27,11 +28,8 @@ std::string fnv1a_128(std::string_view bytes) {
     Wide hash = (Wide{0x6c62272e07bb0142} << 64) + 0x62b821756295c58d;
     for (const char byte : bytes)
         hash = (hash ^ static_cast<unsigned char>(byte)) * prime;
-    std::string out;
-    for (int shift = 124; shift >= 0; shift -= 4) {
-        out += "0123456789abcdef"[static_cast<unsigned>(hash >> shift) & 15U];
-    }
-    return out;
+    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(hash >> 64),
+                       static_cast<std::uint64_t>(hash));
 }
 
 std::string sha256(std::string_view bytes) {

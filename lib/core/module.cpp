@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <system_error>
+#include <utility>
 
 namespace sonarsim {
 
@@ -12,18 +13,14 @@ namespace {
 /// after an installation; those of the package of Python below the folders above its own module. A
 /// program that only links the library finds the installed ones. "": none.
 std::filesystem::path file_of_module(const std::string& name) {
-    struct Start {
-        std::filesystem::path file;
-        int levels;  ///< number of the folders above it that are searched
-    };
     const std::filesystem::path file = "lib/sonarsim/libsonarsim_" + name + ".so";
     std::error_code ignored;
     // PREFIX/lib/python3/dist-packages/sonarsim/ holds the module of Python.
-    for (const Start& start :
-         {Start{module_of_python(), 5},
-          Start{std::filesystem::read_symlink("/proc/self/exe", ignored), 3}}) {
-        std::filesystem::path folder = start.file.parent_path();
-        for (int level = 0; !folder.empty() && level < start.levels; ++level) {
+    for (const auto& [start, levels] :
+         {std::pair{module_of_python(), 5},
+          std::pair{std::filesystem::read_symlink("/proc/self/exe", ignored), 3}}) {
+        std::filesystem::path folder = start.parent_path();
+        for (int level = 0; !folder.empty() && level < levels; ++level) {
             if (std::filesystem::exists(folder / file, ignored)) return folder / file;
             folder = folder.parent_path();
         }

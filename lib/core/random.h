@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "core/elementary.h"
 
@@ -139,9 +140,7 @@ struct NamedDraws {
     }
 };
 
-struct NormalPair {
-    float first, second;
-};
+using NormalPair = std::pair<float, float>;
 
 /// Two independent draws of normal(0, 1) from a random word, by Box and Muller: 20 bits make the
 /// radius, 12 the angle. The greatest radius is 5.4; one draw in 15 million would lie beyond.
@@ -155,12 +154,8 @@ inline NormalPair normal_pair(std::uint32_t word) {
     return {radius * angle.cos, radius * angle.sin};
 }
 
-struct TwoNormals {
-    double first, second;
-};
-
 /// Two independent draws of normal(0, 1) from a block of random words, by Box and Muller.
-inline TwoNormals two_normals(const PhiloxBlock& words) {
+inline std::pair<double, double> two_normals(const PhiloxBlock& words) {
     const double radius = std::sqrt(-2.0 * logarithm(1.0 - unit_double(words.x0, words.x1)));
     const SinCos angle = sincos(2.0 * pi * unit_double(words.x2, words.x3));
     return {radius * angle.cos, radius * angle.sin};

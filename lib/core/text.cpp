@@ -1,6 +1,7 @@
 #include "core/text.h"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
 #include <array>
 #include <charconv>
 #include <numeric>
@@ -24,8 +25,6 @@ std::optional<T> parse_whole(std::string_view text) {
     }
     return value;
 }
-
-constexpr std::string_view hex_digits = "0123456789abcdef";
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -116,12 +115,8 @@ std::string printable(std::string_view text) {
         const bool shown = length > 0 && byte >= 0x20 && byte != 0x7f && !high_control;
         const std::size_t taken = std::max<std::size_t>(length, 1);
         for (const char c : text.substr(0, taken)) {
-            const auto value = static_cast<unsigned char>(c);
-            if (shown) {
-                out += c;
-            } else {
-                out += {'\\', 'x', hex_digits[value >> 4U], hex_digits[value & 15U]};
-            }
+            out +=
+                shown ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
         }
         text.remove_prefix(taken);
     }
@@ -180,10 +175,7 @@ bool is_nested_deeper(std::string_view text, int levels) {
 }
 
 std::string hex_text(std::span<const std::uint8_t> bytes) {
-    std::string text;
-    for (const std::uint8_t byte : bytes)
-        text += {hex_digits[byte >> 4U], hex_digits[byte & 15U]};
-    return text;
+    return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 std::string in_lower_case(std::string text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,6 +41,11 @@ std::string listed(auto&& texts, std::string_view separator = ", ") {
     for (const auto& text : texts)
         out.append(out.empty() ? "" : separator).append(text);
     return out;
+}
+
+/// True if an element of `all` equals `wanted`.
+bool contains(const auto& all, const auto& wanted) {
+    return std::ranges::find(all, wanted) != std::ranges::end(all);
 }
 
 /// " (did you mean 'x'?)" with the candidate nearest to `word` by edit distance, or "" when none
