@@ -7,8 +7,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-Waypoint at(double x, double y, double z, double yaw_deg = 0.0) {
-    return {{x, y, z}, rotation_from_rpy(0, 0, radians(yaw_deg))};
+Pose at(double x, double y, double z, double yaw_deg = 0.0) {
+    return {rotation_from_rpy(0, 0, radians(yaw_deg)), {x, y, z}};
 }
 
 Vector3d position(const TimedPose& pose) {
@@ -35,7 +35,7 @@ LawnmowerTrajectoryConfig survey(double heading_deg, double spacing) {
 
 TEST_CASE("waypoints: constant speed along straight legs, on which the attitude turns") {
     // 3-4-5: 5 m, then 10 m down; at 2 m/s they take 2.5 s and 5 s.
-    const std::vector<Waypoint> points{at(0, 0, 0), at(3, 4, 0, 90), at(3, 4, -10, 90)};
+    const std::vector<Pose> points{at(0, 0, 0), at(3, 4, 0, 90), at(3, 4, -10, 90)};
     const Trajectory poses = follow_waypoints(points, 2.0, 4.0);
     REQUIRE(poses.size() == 31);
     CHECK(poses.front().t_s == 0.0);
@@ -50,15 +50,14 @@ TEST_CASE("waypoints: constant speed along straight legs, on which the attitude 
 }
 
 TEST_CASE("waypoints: a leg without length, and more poses than memory holds") {
-    const std::vector<Waypoint> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
+    const std::vector<Pose> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
     CHECK_THROWS_WITH_AS(follow_waypoints(on_the_spot, 1.0, 10.0),
                          "waypoint 3 has the position of the one before: a leg needs a length "
                          "(turn along a leg, not on the spot)",
                          InputError);
     // A kilometre at a micrometre a second is 1e9 s.
-    CHECK_THROWS_AS(
-        follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(1000, 0, 0)}, 1e-6, 10.0),
-        InputError);
+    CHECK_THROWS_AS(follow_waypoints(std::vector<Pose>{at(0, 0, 0), at(1000, 0, 0)}, 1e-6, 10.0),
+                    InputError);
     CHECK_THROWS_WITH_AS(lawnmower(survey(0.0, 1e-9)),
                          "line_spacing_m of 1e-09 gives 2e+10 lines; at most 100000 are allowed",
                          InputError);

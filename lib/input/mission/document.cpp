@@ -283,8 +283,8 @@ std::string flow_text(const YamlNode& node) {
     return (is_map ? "{" : "[") + out + (is_map ? "}" : "]");
 }
 
-std::string in_quotes(std::string_view text) {
-    return "'" + shown(text, 60) + "'";
+std::string in_quotes(std::string_view text, std::size_t longest) {
+    return "'" + shown(text, longest) + "'";
 }
 
 }  // namespace sonarsim

@@ -65,10 +65,10 @@ std::string flow_text(const YamlNode& node);
 /// `text` in double quotes, as YAML reads it back.
 std::string quoted_text(std::string_view text);
 
-/// `text` in single quotes for a message: cut when long, control characters masked.
-std::string in_quotes(std::string_view text);
-
-/// `text` for a message, as `in_quotes` but without the quotes and up to `longest` bytes.
+/// `text` for a message: cut when longer than `longest` bytes, control characters masked.
 std::string shown(std::string_view text, std::size_t longest);
+
+/// The same in single quotes.
+std::string in_quotes(std::string_view text, std::size_t longest = 60);
 
 }  // namespace sonarsim

@@ -43,15 +43,10 @@ constexpr std::size_t tum_fields = 8;
 constexpr const char* header_help =
     "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
 
-/// A field as shown in a message.
-std::string in_short_quotes(std::string_view field) {
-    return "'" + shown(field, 40) + "'";
-}
-
 double field_value(std::string_view field, const Column& column, const Location& where) {
     const std::optional<double> value = parse_number(field);
     if (value && std::fabs(*value) <= column.limit) return *value;
-    const std::string cell = fmt::format("{}: {}", column.name, in_short_quotes(field));
+    const std::string cell = fmt::format("{}: {}", column.name, in_quotes(field, 40));
     if (!value) refuse(where, "{} is not a number", cell);
     if (!std::isfinite(*value)) refuse(where, "{} is not a finite number", cell);
     refuse(where, "{} is beyond {}; the column's name gives the unit", cell,
@@ -94,16 +89,12 @@ Trajectory require_poses(Trajectory trajectory, const std::string& file) {
     return trajectory;
 }
 
-bool has(std::span<const std::string> header, std::string_view name) {
-    return std::ranges::find(header, name) != header.end();
-}
-
 void check_names(std::span<const std::string> header, const Location& where) {
     const std::vector<std::string> known = names_of(all_columns);
     for (std::size_t i = 0; i < header.size(); ++i) {
-        const std::string name = in_short_quotes(header[i]);
-        if (has(header.first(i), header[i])) refuse(where, "column {} occurs twice", name);
-        if (has(known, header[i])) continue;
+        const std::string name = in_quotes(header[i], 40);
+        if (contains(header.first(i), header[i])) refuse(where, "column {} occurs twice", name);
+        if (contains(known, header[i])) continue;
         refuse(where, "unknown column {}{}; expected {}", name, did_you_mean(header[i], known),
                header_help);
     }
@@ -112,7 +103,7 @@ void check_names(std::span<const std::string> header, const Location& where) {
 /// The columns that a header has. InputError that lists the missing ones.
 std::vector<Column> columns_of(std::span<const std::string> header, const Location& where) {
     check_names(header, where);
-    const auto is_given = [&](const Column& column) { return has(header, column.name); };
+    const auto is_given = [&](const Column& column) { return contains(header, column.name); };
     const bool quaternion = std::ranges::any_of(quaternion_columns, is_given);
     if (quaternion == std::ranges::any_of(angle_columns, is_given))
         refuse(where, "{}; expected {}", quaternion ? "two attitudes" : "no attitude", header_help);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "core/elementary.h"
@@ -59,12 +58,12 @@ Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Int
 
 /// Drops the poses between the lines of a survey, which have three waypoints each after the first
 /// two: half-way, start and end of the next line. The other poses keep their times.
-void drop_turns(std::span<const Waypoint> waypoints, const LawnmowerTrajectoryConfig& survey,
+void drop_turns(std::span<const Pose> waypoints, const LawnmowerTrajectoryConfig& survey,
                 Trajectory& poses) {
     constexpr double rounding_s = 1e-9;
     std::vector<double> t_s{0.0};
     for (std::size_t k = 1; k < waypoints.size(); ++k) {
-        const double leg_m = (waypoints[k].position_m - waypoints[k - 1].position_m).norm();
+        const double leg_m = (waypoints[k].translation - waypoints[k - 1].translation).norm();
         t_s.push_back(t_s.back() + leg_m / survey.speed_m_s);
     }
     std::erase_if(poses, [&, line_end = std::size_t{1}](const TimedPose& pose) mutable {
@@ -84,7 +83,6 @@ struct Cosine {
 std::vector<Cosine> draw_cosines(std::uint32_t movement, const MotionConfig& motion,
                                  PhiloxKey draws) {
     std::vector<Cosine> out;
-    out.reserve(cosines);
     for (std::uint32_t k = 0; k < cosines; ++k) {
         const PhiloxBlock words = philox({movement, k, 0, 0}, draws);
         // Keep the share off 0 and 1, so that its logarithm is finite and not 0.
@@ -106,22 +104,22 @@ double sum_at(const std::vector<Cosine>& spectrum, double t_s) {
 
 }  // namespace
 
-Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz) {
+Trajectory follow_waypoints(std::span<const Pose> waypoints, double speed_m_s, double rate_hz) {
     Trajectory knots;
-    knots.reserve(waypoints.size());
-    for (const Waypoint& waypoint : waypoints) {
+    for (const Pose& waypoint : waypoints) {
         double t_s = 0.0;
         if (!knots.empty()) {
             const TimedPose& last = knots.back();
-            const double length = (waypoint.position_m - last.T_world_vehicle.translation).norm();
+            const double length = (waypoint.translation - last.T_world_vehicle.translation).norm();
             t_s = last.t_s + length / speed_m_s;
             if (!(t_s > last.t_s)) {
-                throw InputError("waypoint " + std::to_string(knots.size() + 1) +
-                                 " has the position of the one before: " +
-                                 "a leg needs a length (turn along a leg, not on the spot)");
+                throw InputError(fmt::format(
+                    "waypoint {} has the position of the one before: a leg needs a length (turn "
+                    "along a leg, not on the spot)",
+                    knots.size() + 1));
             }
         }
-        knots.push_back({t_s, {waypoint.attitude.normalized(), waypoint.position_m}});
+        knots.push_back({t_s, {waypoint.rotation.normalized(), waypoint.translation}});
     }
     return resample(knots, rate_hz);
 }
@@ -140,9 +138,8 @@ Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
     // more.
     const double lines = std::max(1.0, std::ceil(width / spacing - 1e-9));
     if (lines > max_lines) {
-        throw InputError("line_spacing_m of " + number_text(spacing) + " gives " +
-                         number_text(lines) + " lines; at most " + std::to_string(max_lines) +
-                         " are allowed");
+        throw InputError(fmt::format("line_spacing_m of {} gives {} lines; at most {} are allowed",
+                                     number_text(spacing), number_text(lines), max_lines));
     }
     const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);
 
@@ -153,7 +150,7 @@ Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
                                std::fma(heading.sin, along, heading.cos * to_port), survey.z_m);
     };
     const auto turned = [&](double angle) { return rotation_from_rpy(0.0, 0.0, yaw + angle); };
-    std::vector<Waypoint> waypoints;
+    std::vector<Pose> waypoints;
     for (int line = 0; line < static_cast<int>(lines); ++line) {
         const double y = first_line + line * spacing;
         const Interval reach = reach_in_strip(corners, {y - 0.5 * spacing, y + 0.5 * spacing});
@@ -162,11 +159,10 @@ Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
         const Eigen::Vector3d end = in_world(forth ? reach.hi : reach.lo, y);
         const Eigen::Quaterniond attitude = turned(forth ? 0.0 : pi);
         // A half turn has two shortest arcs; a waypoint half-way chooses the one over port.
-        if (line > 0) {
-            waypoints.push_back({0.5 * (waypoints.back().position_m + start), turned(0.5 * pi)});
-        }
-        waypoints.push_back({start, attitude});
-        waypoints.push_back({end, attitude});
+        if (line > 0)
+            waypoints.push_back({turned(0.5 * pi), 0.5 * (waypoints.back().translation + start)});
+        waypoints.push_back({attitude, start});
+        waypoints.push_back({attitude, end});
     }
     Trajectory poses = follow_waypoints(waypoints, survey.speed_m_s, survey.rate_hz);
     if (!survey.turns) drop_turns(waypoints, survey, poses);
@@ -203,9 +199,9 @@ Trajectory reported_poses(const Trajectory& truth, const NavigationConfig& error
     for (std::size_t i = 0; i < out.size(); ++i) {
         // Counter 0 is left out, so that poses keep their draws.
         const auto counter = static_cast<std::uint32_t>(i) + 1;
-        const TwoNormals position_draws = two_normals(philox({counter, 0, 0, 0}, draws));
-        const TwoNormals tilt_draws = two_normals(philox({counter, 1, 0, 0}, draws));
-        const TwoNormals other_draws = two_normals(philox({counter, 2, 0, 0}, draws));
+        const auto position_draws = two_normals(philox({counter, 0, 0, 0}, draws));
+        const auto tilt_draws = two_normals(philox({counter, 1, 0, 0}, draws));
+        const auto other_draws = two_normals(philox({counter, 2, 0, 0}, draws));
         Pose& pose = out[i].T_world_vehicle;
         pose.translation += Eigen::Vector3d(errors.position_m * position_draws.first,
                                             errors.position_m * position_draws.second,

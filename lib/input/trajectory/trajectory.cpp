@@ -37,8 +37,8 @@ TimedPose interpolate(const Trajectory& trajectory, double t_s) {
     const double first = trajectory.front().t_s;
     const double last = trajectory.back().t_s;
     if (!(t_s >= first && t_s <= last)) {
-        throw InputError("no pose at " + number_text(t_s) + " s: the trajectory runs from " +
-                         number_text(first) + " to " + number_text(last) + " s");
+        throw InputError(fmt::format("no pose at {} s: the trajectory runs from {} to {} s",
+                                     number_text(t_s), number_text(first), number_text(last)));
     }
     const auto next =
         std::upper_bound(trajectory.begin(), trajectory.end(), t_s,
@@ -61,14 +61,15 @@ Trajectory resample(const Trajectory& trajectory, double rate_hz) {
         2.0 * std::numeric_limits<double>::epsilon() * std::max(std::fabs(first), std::fabs(last));
     const double tolerance = 1e-9 + rounding;
     if (rate_hz * 4.0 * tolerance > 1.0) {
-        throw InputError("rate_hz of " + number_text(rate_hz) + " is too high: near " +
-                         number_text(last) + " s neighbouring poses would have equal times");
+        throw InputError(fmt::format(
+            "rate_hz of {} is too high: near {} s neighbouring poses would have equal times",
+            number_text(rate_hz), number_text(last)));
     }
     const double steps = std::floor((last - first + tolerance) * rate_hz);
     if (steps + 1.0 > static_cast<double>(max_poses)) {
-        throw InputError("rate_hz of " + number_text(rate_hz) + " gives " +
-                         number_text(steps + 1.0) + " poses over " + number_text(last - first) +
-                         " s; at most " + std::to_string(max_poses) + " are allowed");
+        throw InputError(fmt::format(
+            "rate_hz of {} gives {} poses over {} s; at most {} are allowed", number_text(rate_hz),
+            number_text(steps + 1.0), number_text(last - first), max_poses));
     }
     Trajectory out(static_cast<std::size_t>(steps) + 1);
     for (std::size_t k = 0; k < out.size(); ++k) {

@@ -29,10 +29,10 @@ Trajectory form_of(const FileTrajectoryConfig& config) {
 }
 
 Trajectory form_of(const WaypointTrajectoryConfig& config) {
-    std::vector<Waypoint> waypoints;
+    std::vector<Pose> waypoints;
     for (const WaypointConfig& waypoint : config.waypoints) {
         waypoints.push_back(
-            {Eigen::Vector3d(waypoint.position_m.data()), rotation_from_degrees(waypoint.rpy_deg)});
+            {rotation_from_degrees(waypoint.rpy_deg), Eigen::Vector3d(waypoint.position_m.data())});
     }
     return follow_waypoints(waypoints, config.speed_m_s, config.rate_hz);
 }
