@@ -1,9 +1,9 @@
 #include "mission_options.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <iterator>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -24,9 +24,9 @@ MissionSource source_of(const MissionOptions& options) {
 
 /// The value of a choice that the command line has checked; `fallback` for "".
 template <class T, std::size_t N>
-T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
+T chosen(const std::array<Choice<T>, N>& choices, const std::string& name, T fallback) {
     const auto* const choice = std::ranges::find(choices, name, &Choice<T>::name);
-    return choice == std::end(choices) ? fallback : choice->value;
+    return choice == choices.end() ? fallback : choice->value;
 }
 
 constexpr std::int64_t max_shards = 1'000'000;

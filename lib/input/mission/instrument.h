@@ -24,11 +24,8 @@ enum class Aperture {
 /// The quantity in which the beams of a fan have equal steps.
 enum class BeamSpacing { equal_angle, equal_sine };
 
-enum class SpeckleMode {
-    scene,  ///< scatterers stay in place in the scene
-    ping,   ///< scatterers are drawn for every ping
-    none    ///< no speckle, the mean power
-};
+/// When the scatterers of the speckle are drawn: once, for every ping, or never.
+enum class SpeckleMode { scene, ping, none };
 
 enum class Companding { gamma, log, linear };
 
@@ -136,20 +133,14 @@ struct InstrumentConfig {
     bool below_bottom = false;  ///< the volume of the sediment echoes behind its surface
 };
 
-inline constexpr Choice<BeamSpacing> beam_spacings[]{{"angle", BeamSpacing::equal_angle},
-                                                     {"sine", BeamSpacing::equal_sine}};
-inline constexpr Choice<SpeckleMode> speckle_modes[]{
-    {"scene", SpeckleMode::scene}, {"ping", SpeckleMode::ping}, {"none", SpeckleMode::none}};
-inline constexpr Choice<Companding> compandings[]{
-    {"gamma", Companding::gamma}, {"log", Companding::log}, {"linear", Companding::linear}};
+inline constexpr auto beam_spacings = choices_of<BeamSpacing>("angle", "sine");
+inline constexpr auto speckle_modes = choices_of<SpeckleMode>("scene", "ping", "none");
+inline constexpr auto compandings = choices_of<Companding>("gamma", "log", "linear");
 
-inline constexpr Choice<WaterContent> water_contents[]{
-    {"auto", WaterContent::automatic},    {"none", WaterContent::none},
-    {"clear", WaterContent::clear},       {"coastal", WaterContent::coastal},
-    {"plankton", WaterContent::plankton}, {"plume", WaterContent::plume}};
+inline constexpr auto water_contents =
+    choices_of<WaterContent>("auto", "none", "clear", "coastal", "plankton", "plume");
 inline constexpr Limits any_level_db{-300.0, 300.0};
-inline constexpr Choice<SampleRule> sample_rules[]{{"max", SampleRule::maximum},
-                                                   {"mean", SampleRule::mean}};
+inline constexpr auto sample_rules = choices_of<SampleRule>("max", "mean");
 /// Levels above the noise.
 inline constexpr Limits raised_levels_db{0.0, 200.0};
 /// From a Hamming taper to no taper.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,10 +51,16 @@ struct Choice {
 template <class T>
 using Choices = std::span<const Choice<T>>;
 
+/// The names of an enumeration's values, in its order.
+template <class T, class... Names>
+constexpr std::array<Choice<T>, sizeof...(Names)> choices_of(Names... names) {
+    int value = 0;
+    return {Choice<T>{names, static_cast<T>(value++)}...};
+}
+
 /// The names of choices, or of other things with a name.
 std::vector<std::string> names_of(const auto& all) {
     std::vector<std::string> names;
-    names.reserve(std::size(all));
     for (const auto& one : all)
         names.emplace_back(one.name);
     return names;

@@ -90,14 +90,9 @@ struct OutputConfig {
     Location place = {};
 };
 
-inline constexpr Choice<Label> label_names[]{
-    {"instance", Label::instance},       {"share", Label::share},
-    {"second", Label::second},           {"class", Label::class_name},
-    {"material", Label::material},       {"elevation", Label::elevation},
-    {"height", Label::height},           {"shadow", Label::shadow},
-    {"multipath", Label::multipath},     {"clean", Label::clean},
-    {"direct_only", Label::direct_only}, {"multipath_only", Label::multipath_only},
-    {"objects", Label::objects},         {"fan", Label::fan}};
+inline constexpr auto label_names = choices_of<Label>(
+    "instance", "share", "second", "class", "material", "elevation", "height", "shadow",
+    "multipath", "clean", "direct_only", "multipath_only", "objects", "fan");
 
 void describe(auto& v, OutputConfig& c) {
     v.path("folder", c.folder, "folder of the dataset; default: out/NAME in the current directory");
@@ -145,10 +140,7 @@ struct Mission {
     Variant variant;               ///< the variant that this mission is
 };
 
-inline constexpr Choice<EngineKind> engine_names[]{{"auto", EngineKind::automatic},
-                                                   {"rays", EngineKind::rays},
-                                                   {"octree", EngineKind::octree},
-                                                   {"strips", EngineKind::strips}};
+inline constexpr auto engine_names = choices_of<EngineKind>("auto", "rays", "octree", "strips");
 
 /// True if a mission may have the name. It names a folder that holds nothing but this mission.
 inline bool is_folder_name(std::string_view name) {
@@ -182,8 +174,7 @@ void describe(auto& v, ClassConfig& c) {
               "a rule for classes needs the keys 'nodes' or 'materials', and 'class'");
 }
 
-inline constexpr Choice<MaskKind> mask_kinds[]{{"outline", MaskKind::outline},
-                                               {"echo", MaskKind::echo}};
+inline constexpr auto mask_kinds = choices_of<MaskKind>("outline", "echo");
 
 void describe(auto& v, LabelConfig& c) {
     v.text("background", c.background,

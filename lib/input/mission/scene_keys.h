@@ -149,15 +149,12 @@ struct SceneConfig {
     Location place = {};
 };
 
-inline constexpr Choice<LengthUnit> length_units[]{
-    {"m", LengthUnit::m},   {"mm", LengthUnit::mm},   {"cm", LengthUnit::cm},
-    {"km", LengthUnit::km}, {"in", LengthUnit::inch}, {"ft", LengthUnit::foot}};
-inline constexpr Choice<UpAxis> up_axes[]{{"y", UpAxis::y}, {"z", UpAxis::z}};
-inline constexpr Choice<ObjectPlace> object_places[]{{"free", ObjectPlace::free},
-                                                     {"on_bottom", ObjectPlace::on_bottom}};
+inline constexpr auto length_units = choices_of<LengthUnit>("m", "mm", "cm", "km", "in", "ft");
+inline constexpr auto up_axes = choices_of<UpAxis>("y", "z");
+inline constexpr auto object_places = choices_of<ObjectPlace>("free", "on_bottom");
 
-/// The largest factor by which an object is enlarged or made smaller.
-inline constexpr double largest_scale = 1e6;
+/// The factors by which an object is enlarged or made smaller.
+inline constexpr Limits any_scale{1e-6, 1e6};
 
 void describe_mesh(auto& v, MeshConfig& c) {
     v.choice("units", c.units, length_units, "unit of the file's lengths");
@@ -177,8 +174,7 @@ void describe(auto& v, ObjectConfig& c) {
             "position of the file's origin in the world; an object on the bottom uses x and y "
             "only; for a moving object it is relative to the trajectory");
     v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the object");
-    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
-             "factor that enlarges the object");
+    v.number("scale", c.scale, any_scale, "factor that enlarges the object");
     v.text("material", c.mesh.material,
            "material of the whole object; default: the file's materials");
     describe_mesh(v, c.mesh);
@@ -217,8 +213,7 @@ void describe(auto& v, ScatterConfig& c) {
     v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
     v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
     v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
-    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
-             "factor that enlarges an object");
+    v.number("scale", c.scale, any_scale, "factor that enlarges an object");
     v.text("material", c.mesh.material, "material of the objects; default: the files' materials");
     describe_mesh(v, c.mesh);
     v.number("bury", c.bury, any_share_buried,
@@ -230,8 +225,7 @@ void describe(auto& v, ScatterConfig& c) {
     v.flag("overlap", c.overlap, "objects may lie on and in others");
     v.flag("align", c.align, "objects stand upright on the slope below them");
     v.flag("unlabelled", c.unlabelled, "their class is background");
-    v.require(c.files.empty() == false, {"stock", "files"},
-              "a rule of 'scatter' needs 'stock' or 'files'");
+    v.require(!c.files.empty(), {"stock", "files"}, "a rule of 'scatter' needs 'stock' or 'files'");
     v.require(c.stock.empty() || c.files.size() % c.stock.size() == 0, {"stock", "files"},
               "'stock' and 'files': give one of the two");
     v.require(c.area_min_m.has_value() == c.area_max_m.has_value(), {"area_min_m", "area_max_m"},
@@ -247,7 +241,7 @@ void describe(auto& v, ScatterConfig& c) {
 void describe(auto& v, ClutterConfig& c) {
     v.number("density_per_m2", c.density_per_m2, between(0, 1e3), "as in `scatter`", required);
     v.text("stock", c.stock, "default: stones, boards, panels, ropes, weed and others");
-    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale}, "as in `scatter`");
+    v.number("scale", c.scale, any_scale, "as in `scatter`");
     v.number("bury", c.bury, any_share_buried, "as in `scatter`");
 }
 
@@ -266,7 +260,7 @@ void describe(auto& v, HeightmapConfig& c) {
     describe_image_place(v, c);
     v.number("cell_m", c.cell_m, between(0, 1e6),
              "cells of at most this side, by cubic interpolation of the heights; 0: the pixels");
-    v.number("height_scale", c.height_scale, {-largest_scale, largest_scale},
+    v.number("height_scale", c.height_scale, {-any_scale.high, any_scale.high},
              "metres for each step of the pixels' values; -1 for depths");
     v.number("height_offset_m", c.height_offset_m, any_position_m,
              "height of the value 0 in the world");
@@ -290,14 +284,6 @@ inline std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
     if (scene.heightmap) return {heightmap_instance};
     if (scene.seabed) return {seabed_instance};
     return {};
-}
-
-/// True if an object has the name of an instance that the heightmap or seabed makes.
-inline bool names_ground(const SceneConfig& c) {
-    return std::ranges::any_of(c.objects, [&](const ObjectConfig& object) {
-        return (c.heightmap && object.name == heightmap_instance) ||
-               (c.seabed && object.name == seabed_instance);
-    });
 }
 
 void describe(auto& v, SceneConfig& c) {
@@ -333,7 +319,11 @@ void describe(auto& v, SceneConfig& c) {
               "'scene' needs the key 'file', a heightmap, a seabed or objects");
     v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
               "heightmap and seabed are both the bottom; give one of them");
-    v.require(!names_ground(c), {"objects"},
+    const auto names_ground = [&](const ObjectConfig& object) {
+        return (c.heightmap && object.name == heightmap_instance) ||
+               (c.seabed && object.name == seabed_instance);
+    };
+    v.require(std::ranges::none_of(c.objects, names_ground), {"objects"},
               "an object has the name of the ground, which is 'heightmap' or 'seabed'; "
               "give it another");
 }

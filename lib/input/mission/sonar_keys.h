@@ -31,8 +31,7 @@ struct MultipathConfig {
     bool operator==(const MultipathConfig&) const = default;
 };
 
-/// The order in which the beams of a fan transmit: a group holds neighbouring beams (in_turn), or
-/// every n-th beam.
+/// The groups in which the beams of a fan transmit: neighbours, or every n-th beam.
 enum class ShutterOrder { in_turn, interleaved };
 
 /// A sonar whose beams transmit in groups, one after the other.
@@ -66,8 +65,7 @@ struct StreaksConfig {
     bool operator==(const StreaksConfig&) const = default;
 };
 
-inline constexpr Choice<StreakMode> streak_modes[]{
-    {"none", StreakMode::none}, {"add", StreakMode::add}, {"reduce", StreakMode::reduce}};
+inline constexpr auto streak_modes = choices_of<StreakMode>("none", "add", "reduce");
 
 void describe(auto& v, NoiseConfig& c) {
     v.number("range_lambda_m", c.range_lambda_m, at_least(0),
@@ -104,17 +102,10 @@ void describe(auto& v, StreaksConfig& c) {
 enum class ModelKind { paper, calibrated };
 
 /// The models by name; the first is the default.
-inline constexpr Choice<ModelKind> echo_models[]{{"paper", ModelKind::paper},
-                                                 {"calibrated", ModelKind::calibrated}};
+inline constexpr auto echo_models = choices_of<ModelKind>("paper", "calibrated");
 
 /// The kinds of sonar; the table in simulate/sonar/kinds.h defines them.
-enum class SonarKind {
-    imaging,
-    profiling,
-    sidescan,
-    echosounder,
-    scanning,
-};
+enum class SonarKind { imaging, profiling, sidescan, echosounder, scanning };
 
 struct SonarConfig {
     std::string name;  ///< the key below `sensors`
@@ -159,12 +150,9 @@ struct SonarKeys {
 /// All kinds, in the order in which messages name them.
 using SonarKeyTable = std::span<const SonarKeys>;
 
-inline constexpr Choice<MultipathMethod> multipath_methods[]{{"none", MultipathMethod::none},
-                                                             {"cluster", MultipathMethod::cluster},
-                                                             {"exact", MultipathMethod::exact}};
+inline constexpr auto multipath_methods = choices_of<MultipathMethod>("none", "cluster", "exact");
 
-inline constexpr Choice<ShutterOrder> shutter_orders[]{{"in_turn", ShutterOrder::in_turn},
-                                                       {"interleaved", ShutterOrder::interleaved}};
+inline constexpr auto shutter_orders = choices_of<ShutterOrder>("in_turn", "interleaved");
 
 void describe(auto& v, ShutterConfig& c) {
     v.number("groups", c.groups, between(1, 64),

@@ -56,8 +56,7 @@ struct Variant {
     PossibleObjects objects;  ///< all choices of `vary` together
 };
 
-inline constexpr Choice<VaryPer> vary_pers[]{
-    {"variant", VaryPer::variant}, {"dataset", VaryPer::dataset}, {"ping", VaryPer::ping}};
+inline constexpr auto vary_pers = choices_of<VaryPer>("variant", "dataset", "ping");
 
 void describe(auto& v, VaryConfig& c) {
     constexpr Limits any{-1e18, 1e18};

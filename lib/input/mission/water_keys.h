@@ -59,10 +59,8 @@ void describe(auto& v, WaterLayerConfig& c) {
              required);
 }
 
-inline constexpr Choice<NamedProfile> named_profiles[]{{"none", NamedProfile::none},
-                                                       {"isothermal", NamedProfile::isothermal},
-                                                       {"mixed_layer", NamedProfile::mixed_layer},
-                                                       {"summer", NamedProfile::summer}};
+inline constexpr auto named_profiles =
+    choices_of<NamedProfile>("none", "isothermal", "mixed_layer", "summer");
 
 void describe(auto& v, SoundProfileConfig& c) {
     v.choice("named", c.named, named_profiles,
@@ -146,11 +144,8 @@ inline constexpr double max_particles = 1e6;
 /// Larger groups are one object of the labels each.
 inline constexpr double max_single_particles = 100;
 
-inline constexpr Choice<ParticleKind> particle_kinds[]{{"points", ParticleKind::points},
-                                                       {"fish", ParticleKind::fish},
-                                                       {"bubbles", ParticleKind::bubbles}};
-inline constexpr Choice<ParticleRegion> particle_regions[]{
-    {"box", ParticleRegion::box}, {"ellipsoid", ParticleRegion::ellipsoid}};
+inline constexpr auto particle_kinds = choices_of<ParticleKind>("points", "fish", "bubbles");
+inline constexpr auto particle_regions = choices_of<ParticleRegion>("box", "ellipsoid");
 
 /// From a grain of dust to a ship.
 inline constexpr Limits target_strengths_db{-200.0, 60.0};
