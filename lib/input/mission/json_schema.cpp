@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -90,8 +89,7 @@ class SchemaMaker {
     Json form_json(const SectionReference& section, const std::string& sonar) const {
         Json json{{"type", "object"}, {"properties", Json::object()}};
         for (const KeyReference& key : section.keys) {
-            const bool has_it = std::ranges::find(key.sonars, sonar) != key.sonars.end();
-            if (!sonar.empty() && !has_it) continue;
+            if (!sonar.empty() && !contains(key.sonars, sonar)) continue;
             json["properties"][key.name] = key_json(section.path, key, sonar);
             if (key.required) json["required"].push_back(key.name);
         }

@@ -34,11 +34,7 @@ bool is_within(std::string_view key, std::string_view section) {
 
 /// Throws InputError for rules of `vary` whose draws would be overwritten.
 void check_rules(const Mission& mission) {
-    struct Reserved {
-        std::string_view key;
-        const char* why;
-    };
-    constexpr Reserved reserved[] = {
+    constexpr std::pair<std::string_view, const char*> reserved[] = {
         {"seed", "each variant has a seed of its own, which follows from the mission's"},
         {"variants", "it says how many variants there are"},
         {"vary", "it says what varies"},
@@ -48,8 +44,8 @@ void check_rules(const Mission& mission) {
         const auto add = [&](const std::string& fault) {
             errors.add(InputError(rule->place, "'" + printable(rule->key) + "' " + fault));
         };
-        for (const Reserved& one : reserved) {
-            if (is_within(rule->key, one.key)) add(std::string("cannot vary: ") + one.why);
+        for (const auto& [key, why] : reserved) {
+            if (is_within(rule->key, key)) add(std::string("cannot vary: ") + why);
         }
         const auto lost = std::find_if(mission.vary.begin(), rule, [&](const VaryConfig& earlier) {
             return is_within(earlier.key, rule->key);

@@ -49,21 +49,15 @@ YamlNode read_preset_file(const YamlNode& name, const std::filesystem::path& bas
     return read_document(read_file(path, largest_preset), path.string());
 }
 
-YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
-                     const std::string& kind) {
-    YamlNode preset = read_preset_file(name, base_folder, kind);
-    if (preset.kind != YamlNode::Kind::map) refuse(preset.place, "a preset is a section of keys");
-    if (const YamlNode* const nested = preset.find(preset_key))
-        refuse(nested->key_place, "a preset cannot name a preset");
-    return preset;
-}
-
 /// Fills in the keys of the file that the key `preset` of a section names, if there is one.
 void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder,
                      const std::string& kind) {
     const YamlNode* const name = section.find(preset_key);
     if (name == nullptr) return;
-    const YamlNode preset = read_preset(*name, base_folder, kind);
+    const YamlNode preset = read_preset_file(*name, base_folder, kind);
+    if (preset.kind != YamlNode::Kind::map) refuse(preset.place, "a preset is a section of keys");
+    if (const YamlNode* const nested = preset.find(preset_key))
+        refuse(nested->key_place, "a preset cannot name a preset");
     const YamlNode* const own_kind = section.find("kind");
     const YamlNode* const its_kind = preset.find("kind");
     if (own_kind != nullptr && its_kind != nullptr && own_kind->text != its_kind->text) {
@@ -147,8 +141,7 @@ std::string shipped_hint(std::string name, const std::string& kind) {
     std::ranges::replace(name, '\\', '/');
     const std::vector<std::string> names = shipped_presets(kind);
     const std::string stem = std::filesystem::path(name).stem().string();
-    if (std::ranges::find(names, stem) != names.end())
-        return " (did you mean '" + kind + "/" + stem + ".yaml'?)";
+    if (contains(names, stem)) return " (did you mean '" + kind + "/" + stem + ".yaml'?)";
     return did_you_mean(stem, names) + "; there are: " + listed(names);
 }
 

@@ -18,16 +18,12 @@ bool is_name(std::string_view text) {
 
 /// The cure for a key that is known, but not in this section; "" for any other.
 std::string misplaced(const std::string& key, const std::vector<std::string>& known) {
-    const auto knows = [&](const char* name) {
-        return std::ranges::find(known, name) != known.end();
-    };
-    if (knows("sensors")) {
+    if (contains(known, "sensors")) {
         constexpr std::array sensor_keys{"instrument", "model",       "mount",       "multipath",
                                          "noise",      "range_max_m", "range_min_m", "streaks"};
-        if (std::ranges::find(sensor_keys, key) != sensor_keys.end())
-            return "; it belongs to a sensor: sensors.NAME." + key;
+        if (contains(sensor_keys, key)) return "; it belongs to a sensor: sensors.NAME." + key;
     }
-    if (!knows("range_max_m")) return "";
+    if (!contains(known, "range_max_m")) return "";
     if (key == "instrument") return "; it needs model: calibrated";
     if (key == "noise" || key == "streaks") return "; it needs model: paper";
     if (key == "azimuth_bins" || key == "azimuth_deg" || key == "elevation_deg")
@@ -72,11 +68,11 @@ const SonarKeys& MissionReader::one_of(const char* key, SonarConfig& value,
     return keys;
 }
 
-std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys) const {
+void MissionReader::one_of(TrajectoryConfig& value, const std::vector<std::string>& keys) const {
     std::vector<std::string> present;
     std::string hint;
     for (const YamlNode& item : node_.items) {
-        if (std::ranges::find(keys, item.key) != keys.end()) present.push_back(item.key);
+        if (contains(keys, item.key)) present.push_back(item.key);
         if (hint.empty()) hint = did_you_mean(item.key, keys);
     }
     if (present.empty())
@@ -84,7 +80,10 @@ std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys
     if (present.size() > 1)
         refuse(node_.find(present[1])->key_place, "'{}' takes one of the keys: {}; here are {}",
                name_, listed(keys), listed(present));
-    return static_cast<std::size_t>(std::ranges::find(keys, present[0]) - keys.begin());
+    if (present[0] == keys[0]) value = FileTrajectoryConfig{.file = {}, .place = node_.place};
+    if (present[0] == keys[1]) value = WaypointTrajectoryConfig{};
+    if (present[0] == keys[2]) value = LawnmowerTrajectoryConfig{};
+    if (present[0] == keys[3]) value = LookAtTrajectoryConfig{};
 }
 
 std::span<const YamlNode> MissionReader::list_items(const char* key, std::size_t fewest) {
@@ -124,9 +123,7 @@ const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
 void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
                             const char* message) {
     if (holds) return;
-    const auto is_faulty = [&](const char* key) {
-        return std::ranges::find(faulty_, key) != faulty_.end();
-    };
+    const auto is_faulty = [&](const char* key) { return contains(faulty_, key); };
     if (std::ranges::any_of(keys, is_faulty)) return;
     const YamlNode* last = nullptr;
     // An override has no line and counts as written after the file.
@@ -140,7 +137,7 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
     }
     std::vector<std::string> values;
     for (const auto& [key, value] : numbers_) {
-        if (std::ranges::find(keys, key) != keys.end()) values.push_back(key + " is " + value);
+        if (contains(keys, key)) values.push_back(key + " is " + value);
     }
     const std::string ending = values.empty() ? "" : " (" + listed(values) + ")";
     const YamlNode& fault = last != nullptr ? *last : node_;
@@ -150,7 +147,7 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
 
 void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
-        if (std::ranges::find(known_, item.key) != known_.end()) continue;
+        if (contains(known_, item.key)) continue;
         std::string hint = misplaced(item.key, known_);
         if (hint.empty()) hint = did_you_mean(item.key, known_);
         if (hint.empty()) hint = "; known here: " + listed(known_);

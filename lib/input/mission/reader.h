@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
@@ -8,12 +7,12 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/error.h"
 #include "input/mission/document.h"
 #include "input/mission/sonar_keys.h"
+#include "input/mission/trajectory_keys.h"
 #include "input/mission/value_types.h"
 
 namespace sonarsim {
@@ -82,17 +81,8 @@ class MissionReader : public KeyVisitor<MissionReader> {
 
     void note_given(const char* key, bool& given) { given = node_.find(key) != nullptr; }
 
-    /// Sets the alternative of `value` by the one key of `keys` that is present.
-    template <class... T>
-    void one_of(std::variant<T...>& value, const std::array<const char*, sizeof...(T)>& keys) {
-        const std::array<std::variant<T...>, sizeof...(T)> forms{T{}...};
-        value = forms[index_of_present({keys.begin(), keys.end()})];
-        std::visit(
-            [&](auto& chosen) {
-                if constexpr (requires { chosen.place; }) chosen.place = node_.place;
-            },
-            value);
-    }
+    /// Sets the form of a trajectory by the one key of `keys` that is present.
+    void one_of(TrajectoryConfig& value, const std::vector<std::string>& keys) const;
 
     /// Reads the kind of a sonar and fills in its defaults, except for the name.
     const SonarKeys& one_of(const char* key, SonarConfig& value, const char* meaning);
@@ -130,7 +120,6 @@ class MissionReader : public KeyVisitor<MissionReader> {
     }
 
     const YamlNode* find(const char* key, Presence presence);
-    std::size_t index_of_present(const std::vector<std::string>& keys) const;
     std::span<const YamlNode> list_items(const char* key, std::size_t fewest);
     const std::vector<YamlNode>& named_items(const char* key);
 

@@ -31,7 +31,7 @@ std::string unit_of(std::string_view key) {
 /// Adds the values that are not in `all`.
 void add_new(const std::vector<std::string>& values, std::vector<std::string>& all) {
     for (const std::string& value : values) {
-        if (std::ranges::find(all, value) == all.end()) all.push_back(value);
+        if (!contains(all, value)) all.push_back(value);
     }
 }
 
@@ -136,11 +136,8 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
                                            .type = note.name,
                                            .unit = unit_of(name),
                                            .required = needed,
-                                           .defaults = {},
                                            .limits = note.limits,
-                                           .choices = {},
-                                           .meaning = meaning,
-                                           .sonars = {}});
+                                           .meaning = meaning});
         }
         add_new(note.choices, row->choices);
         add_new({sonar_}, row->sonars);

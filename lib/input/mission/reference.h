@@ -19,13 +19,13 @@ struct KeyReference {
     bool required = false;
     /// Pairs of a kind of sonar and its default, as YAML. A key whose default does not depend on
     /// the kind has one entry with an empty kind. There is no entry for kinds without the key.
-    std::vector<std::pair<std::string, std::string>> defaults;
-    std::optional<Limits> limits;      ///< limits of a number, or of every number of a list
-    std::vector<std::string> choices;  ///< allowed names; empty: anything
+    std::vector<std::pair<std::string, std::string>> defaults = {};
+    std::optional<Limits> limits;           ///< limits of a number, or of every number of a list
+    std::vector<std::string> choices = {};  ///< allowed names; empty: anything
     std::string meaning;
     /// The kinds and models of the sonars with this key, as "imaging, paper". For other sections
     /// one empty text.
-    std::vector<std::string> sonars;
+    std::vector<std::string> sonars = {};
 };
 
 /// The keys of one section of a mission. A section with several forms has one of these for each.

@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
-#include <vector>
 
 #include "core/error.h"
 #include "core/hash.h"

@@ -1,6 +1,5 @@
 #include "input/mission/stock.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -53,7 +52,7 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, E
                bool& missing, std::vector<YamlNode>& files) {
     const std::vector<std::string> kinds(std::begin(stock_kinds), std::end(stock_kinds));
     const bool is_known = errors.attempt([&] {
-        if (std::ranges::find(kinds, kind.text) != kinds.end()) return;
+        if (contains(kinds, kind.text)) return;
         refuse(kind.place, "the stock has no {}{}; there are: {}", in_quotes(kind.text),
                did_you_mean(kind.text, kinds), listed(kinds));
     });

@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "core/text.h"
@@ -203,8 +202,7 @@ struct SubsetType {
     std::string yaml(const std::vector<T>& values) const {
         YamlValues chosen;
         for (const Choice<T>& one : choices) {
-            if (std::ranges::find(values, one.value) != values.end())
-                chosen.items.emplace_back(one.name);
+            if (contains(values, one.value)) chosen.items.emplace_back(one.name);
         }
         return chosen.items.empty() ? "false" : yaml_text(chosen);
     }
