@@ -8,7 +8,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/scene/images/image_place.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/model_data.h"
 
@@ -123,8 +122,7 @@ bool is_odd(float value, const Image& image) {
     constexpr std::array<float, 5> usual_marks{-9999.0F, -99999.0F, -32767.0F, -32768.0F,
                                                -2147483648.0F};
     constexpr float largest = 1e30F;
-    return !(std::fabs(value) <= largest) ||
-           (!image.has_no_data && std::ranges::find(usual_marks, value) != usual_marks.end());
+    return !(std::fabs(value) <= largest) || (!image.has_no_data && contains(usual_marks, value));
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ class TexelSums {
   public:
     TexelSums() = default;
     /// `value(k)` is called for every texel, row by row.
-    template <class Value>
-    TexelSums(int width, int height, const Value& value)
+    TexelSums(int width, int height, const auto& value)
         : width_(width), height_(height), sums_(row_length() * (index(height) + 1)) {
         std::size_t texel = 0;
         for (int row = 0; row < height; ++row) {

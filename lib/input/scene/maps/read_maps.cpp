@@ -18,7 +18,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "input/mission/seabed_keys.h"
-#include "input/scene/images/image_place.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/objects.h"
@@ -39,9 +38,8 @@ Eigen::AlignedBox2d ground_of(const Scene& scene) {
 /// Calls use(pixel, row, column) for each texel of the map within the scene. `pixel` is null for
 /// those that change nothing: they have no value, or are transparent. `section` is that of the
 /// mission, for messages.
-template <class Use>
 TexelFrame for_each_texel(const AppliedMapConfig& map, const Image& image, const char* section,
-                          const Scene& scene, const Use& use) {
+                          const Scene& scene, const auto& use) {
     const Location where{map.file.string()};
     const Eigen::Vector2d origin(map.origin_m.data());
     const PixelGrid grid = grid_in_metres(image, map.pixel_m, section, where);
