@@ -29,8 +29,7 @@ class Bottom {
     }
 
     /// Calls `visit` with the index of every triangle that may meet the box, some more than once.
-    template <class Visit>
-    void for_each_near(const Eigen::AlignedBox2d& box, const Visit& visit) const {
+    void for_each_near(const Eigen::AlignedBox2d& box, const auto& visit) const {
         for_each_cell(box, [&](std::size_t cell) {
             for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k)
                 visit(triangles_[k]);
@@ -38,8 +37,7 @@ class Bottom {
     }
 
   private:
-    template <class Visit>
-    void for_each_cell(const Eigen::AlignedBox2d& box, const Visit& visit) const {
+    void for_each_cell(const Eigen::AlignedBox2d& box, const auto& visit) const {
         const Eigen::Array2i from = cell_of(box.min());
         const Eigen::Array2i to = cell_of(box.max());
         for (int y = from.y(); y <= to.y(); ++y) {

@@ -57,39 +57,11 @@ Eigen::AlignedBox2d area_of(const ScatterConfig& rule, const Bottom& bottom) {
     return {Eigen::Vector2d(rule.area_min_m->data()), Eigen::Vector2d(rule.area_max_m->data())};
 }
 
-/// Number of refused positions by reason.
-struct Refusals {
-    int outside = 0;
-    int taken = 0;
-    int no_bottom = 0;
-};
-
-[[noreturn]] void give_up(const ScatterConfig& rule, std::size_t object, std::size_t count,
-                          const Refusals& refusals) {
-    refuse(rule.place,
-           "'{}': object {} of {} finds no room in {} tries: {} reach out of the area, {} come too "
-           "near to other objects, {} have no bottom below; take a larger area, fewer or smaller "
-           "objects or less spacing_m",
-           printable(rule.name), object + 1, count, max_tries, refusals.outside, refusals.taken,
-           refusals.no_bottom);
-}
-
 Hull shifted(Hull hull, const Eigen::Vector2d& by) {
     for (Eigen::Vector2d& corner : hull)
         corner += by;
     return hull;
 }
-
-/// One object whose positions are tried one after the other.
-struct Attempt {
-    const ScatterConfig& rule;
-    Eigen::AlignedBox2d area;
-    const Bottom& bottom;
-    const TakenGround& taken;
-    const Surface& shape;
-    const Stance& stance;
-    const Hull& outline;  ///< outline of the rotated shape about its origin
-};
 
 /// An object with the ground that it covers.
 struct Placed {
@@ -97,34 +69,48 @@ struct Placed {
     Hull ground;
 };
 
-/// Returns the object's transform and ground if there is room for it.
-std::optional<Placed> try_at(const Eigen::Vector2d& position, std::size_t chosen,
-                             const Attempt& attempt, Refusals& refusals) {
-    const ScatterConfig& rule = attempt.rule;
-    const auto fits = [&](const Hull& room) {
-        const bool inside = std::ranges::all_of(
-            room, [&](const Eigen::Vector2d& p) { return attempt.area.contains(p); });
-        const bool alone = inside && (rule.overlap || attempt.taken.has_room(room, rule.spacing_m));
-        refusals.outside += !inside;
-        refusals.taken += inside && !alone;
+/// One object whose positions are tried one after the other.
+struct Attempt {
+    const ScatterConfig& rule;
+    Eigen::AlignedBox2d area;
+    const Bottom& bottom;
+    const TakenGround& taken;
+    std::size_t chosen;  ///< number of the shape
+    const Surface& shape;
+    const Stance& stance;
+    const Hull& outline;  ///< outline of the rotated shape about its origin
+    // Numbers of refused positions by reason.
+    int outside = 0;
+    int crowded = 0;
+    int no_bottom = 0;
+
+    bool fits(const Hull& room) {
+        const bool inside =
+            std::ranges::all_of(room, [&](const Eigen::Vector2d& p) { return area.contains(p); });
+        const bool alone = inside && (rule.overlap || taken.has_room(room, rule.spacing_m));
+        outside += !inside;
+        crowded += inside && !alone;
         return alone;
-    };
-    // Cheap test first, with the outline before the object is lowered.
-    Hull room = shifted(attempt.outline, position);
-    if (!fits(room)) return std::nullopt;
-    const std::optional<Eigen::Affine3d> T_world_shape =
-        put_on_bottom(attempt.bottom, attempt.shape, position, attempt.stance);
-    if (!T_world_shape) {
-        ++refusals.no_bottom;
-        return std::nullopt;
     }
-    if (rule.align) {
-        // The object may have been tilted on a slope, so its outline is tested again.
-        room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
+
+    /// The object and its ground if there is room for it.
+    std::optional<Placed> at(const Eigen::Vector2d& position) {
+        // Cheap test first, with the outline before the object is lowered.
+        Hull room = shifted(outline, position);
         if (!fits(room)) return std::nullopt;
+        const auto T_world_shape = put_on_bottom(bottom, shape, position, stance);
+        if (!T_world_shape) {
+            ++no_bottom;
+            return std::nullopt;
+        }
+        if (rule.align) {
+            // The object may have been tilted on a slope, so its outline is tested again.
+            room = hull_of(moved(shape, *T_world_shape).vertices);
+            if (!fits(room)) return std::nullopt;
+        }
+        return Placed{{chosen, *T_world_shape}, std::move(room)};
     }
-    return Placed{{chosen, *T_world_shape}, std::move(room)};
-}
+};
 
 /// The `number`-th of `count` objects of a rule at the first position with room. `redraw` counts
 /// the draws of scale and burial. Returns nullopt if it lies wholly below the bottom.
@@ -149,16 +135,22 @@ std::optional<Placed> place_one(const ScatterConfig& rule, std::span<const Surfa
     stance.bury_m += draws.in(rule.bury, Draw::share, redraw) * box_of(turned).sizes().z();
     const Hull outline = hull_of(turned.vertices);
     const Eigen::AlignedBox2d area = area_of(rule, bottom);
-    const Attempt attempt{rule, area, bottom, taken, shape, stance, outline};
-    Refusals refusals;
+    Attempt attempt{rule, area, bottom, taken, chosen, shape, stance, outline};
     std::optional<Placed> found;
     for (int i = 0; i < max_tries && !found; ++i) {
         const auto n = static_cast<std::uint32_t>(i);
         const Eigen::Vector2d position(draws.in({area.min().x(), area.max().x()}, Draw::x, n),
                                        draws.in({area.min().y(), area.max().y()}, Draw::y, n));
-        found = try_at(position, chosen, attempt, refusals);
+        found = attempt.at(position);
     }
-    if (!found) give_up(rule, number, count, refusals);
+    if (!found) {
+        refuse(rule.place,
+               "'{}': object {} of {} finds no room in {} tries: {} reach out of the area, {} come "
+               "too near to other objects, {} have no bottom below; take a larger area, fewer or "
+               "smaller objects or less spacing_m",
+               printable(rule.name), number + 1, count, max_tries, attempt.outside, attempt.crowded,
+               attempt.no_bottom);
+    }
     if (stance.bury_m > 0.0 && lies_below(bottom, moved(shape, found->object.T_world_shape)))
         return std::nullopt;
     return found;
