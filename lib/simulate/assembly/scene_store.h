@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "input/scene/gltf/load.h"
-#include "input/scene/gltf/scene_files.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/surface.h"

@@ -5,15 +5,16 @@
 #include <cstdint>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "input/scene/copies.h"
 #include "input/scene/gltf/primitives.h"
 #include "input/scene/gltf/repeats.h"
+#include "input/scene/heightmap/height_model.h"
+#include "input/scene/meshes/read_mesh.h"
 #include "input/scene/objects.h"
-#include "input/scene/seabed/seabed.h"
+#include "input/scene/seabed/bed_model.h"
 
 namespace sonarsim {
 
@@ -204,7 +205,37 @@ void add_prevailing(const MaterialTable& table, Scene& scene, std::vector<std::s
     }
 }
 
+tinygltf::Model read_model(const PlacedFile& placed) {
+    if (placed.seabed) return bed_model(*placed.seabed);
+    if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
+    return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
+}
+
 }  // namespace
+
+struct SceneFiles::Entry {
+    std::filesystem::path file;
+    std::optional<HeightmapRule> heightmap;
+    std::shared_ptr<const Seabed> seabed;
+    tinygltf::Model model;
+
+    bool is_ground() const { return heightmap || seabed; }
+};
+
+const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
+    for (const auto& entry : entries_) {
+        if (entry->file.native() == placed.file.native() && entry->heightmap == placed.heightmap &&
+            entry->seabed == placed.seabed)
+            return entry->model;
+    }
+    const auto entry = std::make_shared<const Entry>(
+        Entry{placed.file, placed.heightmap, placed.seabed,
+              read_named_at(placed.place, [&] { return read_model(placed); })});
+    // Keep only one ground: grounds are large, and each variant of a mission may have its own.
+    if (entry->is_ground())
+        std::erase_if(entries_, [](const auto& old) { return old->is_ground(); });
+    return entries_.emplace_back(entry)->model;
+}
 
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,

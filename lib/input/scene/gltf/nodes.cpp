@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-template <class Parts>
-void check_parts(const Parts& parts, const std::string& list, const Location& where) {
+void check_parts(const auto& parts, const std::string& list, const Location& where) {
     // Children inherit it, so that a long text would be stored many times.
     constexpr std::size_t max_bytes = 1000;
     const std::array<std::string, 2> known{"material", "class"};
@@ -23,7 +22,7 @@ void check_parts(const Parts& parts, const std::string& list, const Location& wh
         const tinygltf::Value& sonar = extras.Get("sonar");
         if (!sonar.IsObject()) refuse(where, "{} is not an object", path);
         for (const std::string& key : sonar.Keys()) {
-            if (std::ranges::find(known, key) == known.end()) {
+            if (!contains(known, key)) {
                 refuse(where, "{}: unknown key '{}'{}; only 'material' and 'class' are read", path,
                        printable(key), did_you_mean(key, known));
             }

@@ -8,9 +8,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t max_triangles = std::size_t{1} << 28;
-constexpr std::size_t piece_cost = 64;
-
 /// The primitive's material in the file; null if it has none or one that does not exist.
 const tinygltf::Material* material_of(const PlacedPrimitive& primitive) {
     const auto& materials = primitive.file.model->materials;
@@ -62,13 +59,6 @@ std::string user_of(const PlacedPrimitive& primitive) {
 }
 
 }  // namespace
-
-void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
-    work += piece_cost;
-    if (source) work += source->count + source->positions.sparse_at.size();
-    if (work <= max_triangles) return;
-    refuse({file}, "places more than 2^28 triangles (a primitive counts as 64 more)");
-}
 
 std::uint32_t MaterialNumbers::of(const PlacedPrimitive& primitive, Scene& scene) {
     const std::string name = material_name(primitive, *this);

@@ -2,10 +2,13 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/scene/gltf/nodes.h"
@@ -24,31 +27,19 @@ struct OpenFile {
 };
 
 /// One primitive of one placed mesh.
-struct PlacedPrimitive {
+struct PlacedPrimitive : PrimitiveSurface {
     const OpenFile& file;
     const PlacedMesh& mesh;
     std::uint32_t instance;
-    bool has_floats;                         ///< its positions are no integers
-    std::vector<Eigen::Vector3d> positions;  ///< the vertices in the mesh's own axes
-    std::vector<std::array<std::uint32_t, 3>> triangles;
     int material;    ///< index into the glTF's materials; -1: none
     Location where;  ///< for error messages
 
     Location in_node() const { return {where.file + " of node '" + mesh.instance + "'"}; }
 };
 
-/// Limits the work of reading a scene, since a small file can place a large mesh, or many small
-/// ones, many times. InputError with `file` beyond the limit.
-struct ReadingLimit {
-    std::size_t work = 0;
-
-    void add(const TriangleSource* source, const std::string& file);
-};
-
 /// Calls `visit` with every primitive of a file. Returns the number of primitives that are not
 /// surfaces.
-template <class Visit>
-std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
+std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const auto& visit) {
     std::uint64_t skipped = 0;
     const std::string path = file.placed->file.string();
     for (std::size_t i = 0; i < file.meshes.size(); ++i) {
@@ -60,21 +51,64 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
             const std::set<int>& own = file.meshes[i].materials;
             if (!own.empty() && !own.contains(mesh.primitives[k].material)) continue;
             const Location where{fmt::format("{}: mesh {} primitive {}", path, name, k)};
-            const auto source = open_triangles(*file.model, mesh.primitives[k], where);
-            limit.add(source ? &*source : nullptr, path);
-            if (!source) {
+            auto surface = read_surface(*file.model, mesh.primitives[k], where, {path}, limit);
+            if (!surface) {
                 ++skipped;
                 continue;
             }
-            const bool has_floats =
-                source->positions.component->number == TINYGLTF_COMPONENT_TYPE_FLOAT;
-            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], has_floats,
-                                  read_positions(*source), read_triangles(*source, where),
-                                  mesh.primitives[k].material, where});
+            visit(PlacedPrimitive{std::move(*surface), file, file.meshes[i],
+                                  file.instance_of_mesh[i], mesh.primitives[k].material, where});
         }
     }
     return skipped;
 }
+
+/// Adds triangles to a scene, a body, a shared mesh or a surface, and the vertices that they use.
+template <class Mesh>
+struct MeshBuilder {
+    using Vertex = typename decltype(Mesh::vertices)::value_type;
+
+    Mesh& mesh;
+    SceneRejects& rejects;
+    Eigen::Vector3d origin;
+    // Index of a primitive's vertex in `mesh.vertices`, plus 1. Entries of earlier primitives do
+    // not exceed the number of vertices before this one, so the entries need no clearing.
+    std::vector<std::uint32_t> slots = {};
+
+    /// Calls `note` for every triangle that is added.
+    void add(const PlacedPrimitive& primitive, const auto& note) {
+        const std::size_t first = mesh.vertices.size();
+        slots.resize(std::max(slots.size(), primitive.positions.size()), 0);
+        std::vector<Vertex> local;
+        local.reserve(primitive.positions.size());
+        for (const Eigen::Vector3d& position : primitive.positions)
+            local.push_back((primitive.mesh.T_world_mesh * position - origin)
+                                .template cast<typename Vertex::Scalar>());
+        for (std::array<std::uint32_t, 3> vertices : primitive.triangles) {
+            std::array<Eigen::Vector3d, 3> rounded;
+            for (std::size_t k = 0; k < 3; ++k)
+                rounded[k] = local[vertices[k]].template cast<double>();
+            if (!is_finite(rounded)) {
+                ++rejects.non_finite_triangles;
+                continue;
+            }
+            if (!has_area(rounded)) {
+                ++rejects.degenerate_triangles;
+                continue;
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::uint32_t& slot = slots[vertices[k]];
+                if (slot <= first) {
+                    mesh.vertices.push_back(local[vertices[k]]);
+                    slot = static_cast<std::uint32_t>(mesh.vertices.size());
+                }
+                vertices[k] = slot - 1;
+            }
+            mesh.triangles.push_back(vertices);
+            note();
+        }
+    }
+};
 
 /// The materials of a scene, numbered in the order in which they occur.
 struct MaterialNumbers {

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +11,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "input/scene/gltf/load.h"
 #include "input/scene/gltf/nodes.h"
-#include "input/scene/gltf/scene_files.h"
 
 namespace sonarsim {
 
@@ -23,10 +22,6 @@ using nlohmann::json;
 
 constexpr std::size_t max_bytes = std::size_t{1} << 31;
 constexpr std::uint32_t json_type = 0x4E4F534A;
-
-bool contains(std::span<const std::string_view> list, std::string_view word) {
-    return std::ranges::find(list, word) != list.end();
-}
 
 constexpr std::array<std::string_view, 8> unread_of_file{
     "images", "textures", "samplers", "skins", "animations", "cameras", "extensions", "extras"};
@@ -174,8 +169,7 @@ void check_extensions(const tinygltf::Model& model, const Location& where) {
 }
 
 /// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none. read_file limits the size.
-template <class Callbacks>
-void ignore_sizes(Callbacks& callbacks) {
+void ignore_sizes(auto& callbacks) {
     if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
         callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&,
                                           void*) {

@@ -1,7 +1,5 @@
 #include "input/scene/gltf/repeats.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>

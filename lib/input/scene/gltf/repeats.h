@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -14,54 +12,6 @@
 #include "input/scene/scene.h"
 
 namespace sonarsim {
-
-/// Adds triangles to a scene, a body, a shared mesh or a surface, and the vertices that they use.
-template <class Mesh>
-struct MeshBuilder {
-    using Vertex = typename decltype(Mesh::vertices)::value_type;
-
-    Mesh& mesh;
-    SceneRejects& rejects;
-    Eigen::Vector3d origin;
-    // Index of a primitive's vertex in `mesh.vertices`, plus 1. Entries of earlier primitives do
-    // not exceed the number of vertices before this one, so the entries need no clearing.
-    std::vector<std::uint32_t> slots = {};
-
-    /// Calls `note` for every triangle that is added.
-    template <class Note>
-    void add(const PlacedPrimitive& primitive, const Note& note) {
-        const std::size_t first = mesh.vertices.size();
-        slots.resize(std::max(slots.size(), primitive.positions.size()), 0);
-        std::vector<Vertex> local;
-        local.reserve(primitive.positions.size());
-        for (const Eigen::Vector3d& position : primitive.positions)
-            local.push_back((primitive.mesh.T_world_mesh * position - origin)
-                                .template cast<typename Vertex::Scalar>());
-        for (std::array<std::uint32_t, 3> vertices : primitive.triangles) {
-            std::array<Eigen::Vector3d, 3> rounded;
-            for (std::size_t k = 0; k < 3; ++k)
-                rounded[k] = local[vertices[k]].template cast<double>();
-            if (!is_finite(rounded)) {
-                ++rejects.non_finite_triangles;
-                continue;
-            }
-            if (!has_area(rounded)) {
-                ++rejects.degenerate_triangles;
-                continue;
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                std::uint32_t& slot = slots[vertices[k]];
-                if (slot <= first) {
-                    mesh.vertices.push_back(local[vertices[k]]);
-                    slot = static_cast<std::uint32_t>(mesh.vertices.size());
-                }
-                vertices[k] = slot - 1;
-            }
-            mesh.triangles.push_back(vertices);
-            note();
-        }
-    }
-};
 
 /// The extent of a file's surface where it is placed.
 struct SurfaceExtent {

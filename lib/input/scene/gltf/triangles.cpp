@@ -11,6 +11,41 @@ namespace sonarsim {
 
 namespace {
 
+/// Bytes of a buffer, in equal steps.
+struct Elements {
+    const unsigned char* data = nullptr;
+    std::size_t stride = 0;
+
+    const unsigned char* at(std::size_t i) const { return data + i * stride; }
+};
+
+/// A type of numbers in a file.
+struct ComponentType {
+    int number;  ///< glTF's number of the type
+    std::size_t bytes;
+    bool is_index, is_position;  ///< it is allowed for these
+    double (*read)(const unsigned char* bytes, bool is_normalized);
+};
+
+/// Elements of a glTF accessor, read from the model's buffers: strided, sparse or both.
+/// The functions that open an accessor check that all its bytes exist.
+struct Accessor {
+    Elements elements;  ///< without data: elements that are not sparse are 0
+    std::size_t count = 0;
+    const ComponentType* component = nullptr;
+    bool is_normalized = false;
+    std::vector<std::uint32_t> sparse_at;  ///< indices of the replaced elements, ascending
+    Elements sparse;                       ///< their values
+};
+
+/// The accessors of the triangles of one primitive.
+struct TriangleSource {
+    Accessor positions;
+    std::optional<Accessor> indices;
+    int mode = TINYGLTF_MODE_TRIANGLES;
+    std::size_t count = 0;
+};
+
 constexpr std::size_t max_count = std::size_t{1} << 28;
 /// Elements without a bufferView are zeros, which take memory and no bytes of the file.
 constexpr std::size_t max_zeros = std::size_t{1} << 20;
@@ -144,10 +179,8 @@ std::uint32_t vertex_index(const Accessor& accessor, std::size_t i) {
     return bytes ? static_cast<std::uint32_t>(accessor.component->read(bytes, false)) : 0;
 }
 
-}  // namespace
-
-std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
-    const Accessor& from = source.positions;
+/// The positions of all vertices.
+std::vector<Eigen::Vector3d> positions_of(const Accessor& from) {
     std::vector<Eigen::Vector3d> positions(from.count, Eigen::Vector3d::Zero());
     for (std::size_t i = 0; i < from.count; ++i) {
         const unsigned char* const bytes = element(from, i);
@@ -158,30 +191,9 @@ std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
     return positions;
 }
 
-std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
-                                             const tinygltf::Primitive& primitive,
-                                             const Location& where) {
-    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
-        refuse(where, "mode {} is not one of glTF's, 0 to 6", primitive.mode);
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
-    const auto attribute = primitive.attributes.find("POSITION");
-    if (attribute == primitive.attributes.end()) refuse(where, "has no POSITION");
-
-    TriangleSource source;
-    source.mode = primitive.mode;
-    source.positions = open_accessor(model, attribute->second, true, {where.file + ": POSITION"});
-    if (primitive.indices >= 0)
-        source.indices = open_accessor(model, primitive.indices, false, {where.file + ": indices"});
-    const std::size_t corners = source.indices ? source.indices->count : source.positions.count;
-    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
-    if (is_list ? corners % 3 != 0 : corners < 3)
-        refuse(where, "{} corners do not make whole triangles", corners);
-    source.count = is_list ? corners / 3 : corners - 2;
-    return source;
-}
-
-std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& source,
-                                                         const Location& where) {
+/// The vertices of all triangles. InputError at `where` if there is no such vertex.
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const TriangleSource& source,
+                                                       const Location& where) {
     std::vector<std::array<std::uint32_t, 3>> triangles(source.count);
     for (std::size_t i = 0; i < source.count; ++i) {
         std::array<std::size_t, 3> corners{i, i + 1, i + 2};
@@ -197,6 +209,44 @@ std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& s
         }
     }
     return triangles;
+}
+
+}  // namespace
+
+void ReadingLimit::add(std::size_t triangles, const Location& file) {
+    constexpr std::size_t max_triangles = std::size_t{1} << 28;
+    constexpr std::size_t piece_cost = 64;
+    work += piece_cost + triangles;
+    if (work > max_triangles)
+        refuse(file, "places more than 2^28 triangles (a primitive counts as 64 more)");
+}
+
+std::optional<PrimitiveSurface> read_surface(const tinygltf::Model& model,
+                                             const tinygltf::Primitive& primitive,
+                                             const Location& where, const Location& file,
+                                             ReadingLimit& limit) {
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        refuse(where, "mode {} is not one of glTF's, 0 to 6", primitive.mode);
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        limit.add(0, file);
+        return std::nullopt;
+    }
+    const auto attribute = primitive.attributes.find("POSITION");
+    if (attribute == primitive.attributes.end()) refuse(where, "has no POSITION");
+
+    TriangleSource source;
+    source.mode = primitive.mode;
+    source.positions = open_accessor(model, attribute->second, true, {where.file + ": POSITION"});
+    if (primitive.indices >= 0)
+        source.indices = open_accessor(model, primitive.indices, false, {where.file + ": indices"});
+    const std::size_t corners = source.indices ? source.indices->count : source.positions.count;
+    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (is_list ? corners % 3 != 0 : corners < 3)
+        refuse(where, "{} corners do not make whole triangles", corners);
+    source.count = is_list ? corners / 3 : corners - 2;
+    limit.add(source.count + source.positions.sparse_at.size(), file);
+    return PrimitiveSurface{source.positions.component->number == TINYGLTF_COMPONENT_TYPE_FLOAT,
+                            positions_of(source.positions), triangles_of(source, where)};
 }
 
 }  // namespace sonarsim
