@@ -7,6 +7,7 @@
 
 #include "core/csv.h"
 #include "core/elementary.h"
+#include "core/file.h"
 #include "core/input_limits.h"
 #include "core/units.h"
 #include "input/mission/limits.h"
@@ -96,7 +97,14 @@ void check_sea_bed(const Material& material, const Location& where) {
            listed(missing));
 }
 
-MaterialTable to_materials(const CsvTable& csv) {
+}  // namespace
+
+MaterialTable read_materials(const std::filesystem::path& path) {
+    return parse_materials(read_file(path, max_file_bytes), path.string());
+}
+
+MaterialTable parse_materials(std::string_view text, const std::string& file_name) {
+    const CsvTable csv = parse_csv(text, file_name);
     const std::vector<OptionalColumn> optional = optional_columns_of(csv);
     MaterialTable table;
     table.file = csv.file;
@@ -127,16 +135,6 @@ MaterialTable to_materials(const CsvTable& csv) {
         table.materials.push_back(std::move(material));
     }
     return table;
-}
-
-}  // namespace
-
-MaterialTable read_materials(const std::filesystem::path& path) {
-    return to_materials(read_csv(path, max_file_bytes));
-}
-
-MaterialTable parse_materials(std::string_view text, const std::string& file_name) {
-    return to_materials(parse_csv(text, file_name));
 }
 
 std::uint32_t material_number(Scene& scene, const std::string& name) {
@@ -171,7 +169,7 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
 
 void require_material(const MaterialTable& table, const std::string& name, const Location& place) {
     const std::vector<std::string> known = names_of(table.materials);
-    if (std::ranges::find(known, name) != known.end()) return;
+    if (contains(known, name)) return;
     refuse(place, "unknown material '{}'{}; {} lists the materials", printable(name),
            did_you_mean(name, known), table.file);
 }
@@ -208,14 +206,15 @@ std::vector<std::string> unit_warnings(std::span<const Material> materials) {
         const std::string name = "material '" + printable(material.name) + "': ";
         const bool slow = material.sound_speed_m_s < slowest;
         if (slow) {
-            warnings.push_back(name + "a speed of sound of " +
-                               number_text(material.sound_speed_m_s) +
-                               " looks like km/s; the CSV takes m/s");
+            warnings.push_back(
+                fmt::format("{}a speed of sound of {} looks like km/s; the CSV takes m/s", name,
+                            number_text(material.sound_speed_m_s)));
         }
         const double speed = material.sound_speed_m_s * (slow ? 1000.0 : 1.0);
         if (material.density_kg_m3 < lightest_solid && speed > fast_for_a_gas) {
-            warnings.push_back(name + "a density of " + number_text(material.density_kg_m3) +
-                               " looks like g/cm^3; the CSV takes kg/m^3");
+            warnings.push_back(
+                fmt::format("{}a density of {} looks like g/cm^3; the CSV takes kg/m^3", name,
+                            number_text(material.density_kg_m3)));
         }
     }
     return warnings;

@@ -64,8 +64,9 @@ NamedInstances all_instances(const Scene& scene, const PossibleObjects& possible
 
 void require_ids(std::size_t count, const char* what) {
     if (count <= max_ids) return;
-    throw InputError("the scene has " + std::to_string(count) + " " + what +
-                     ", and labels of 16 bits have at most 65535: group them with `classes`");
+    throw InputError(fmt::format(
+        "the scene has {} {}, and labels of 16 bits have at most 65535: group them with `classes`",
+        count, what));
 }
 
 }  // namespace

@@ -36,9 +36,8 @@ std::string padded(std::string text, std::size_t width) {
 }
 
 /// A table with a row for each name; `cells(k)` is the rest of its line.
-template <class Cells>
 std::string rows_of(const std::string& title, const std::vector<std::string>& names,
-                    const std::string& heads, const Cells& cells) {
+                    const std::string& heads, const auto& cells) {
     std::size_t width = title.size();
     for (const std::string& name : names)
         width = std::max(width, printable(name).size());

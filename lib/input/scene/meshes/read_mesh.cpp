@@ -236,7 +236,7 @@ struct ModelBuilder {
 
 bool is_mesh_file(const std::filesystem::path& path) {
     constexpr std::array<std::string_view, 3> formats{"obj", "stl", "ply"};
-    if (std::ranges::find(formats, format_of(path)) == formats.end()) return false;
+    if (!contains(formats, format_of(path))) return false;
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) return true;  // read_mesh() says so
     std::array<char, 4> start{};

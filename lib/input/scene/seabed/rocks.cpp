@@ -67,7 +67,6 @@ std::vector<Cut> cuts_of(std::uint32_t shape, std::uint64_t seed) {
     constexpr std::uint32_t planes = 14;
     const PhiloxKey key = bed_key(seed, BedDraw::rock_shapes, shape);
     std::vector<Cut> out;
-    out.reserve(planes);
     for (std::uint32_t n = 0; n < planes; ++n) {
         const PhiloxBlock block = philox({n, 0, 0, 0}, key);
         const PhiloxBlock other = philox({n, 1, 0, 0}, key);
@@ -176,7 +175,6 @@ std::vector<Surface> rock_shapes(std::uint64_t seed) {
     const Surface ball = icosahedron();
     const Surface finer = refined(ball);
     const Surface finest = refined(finer);
-    out.reserve(std::size_t{shape_count} * levels);
     for (std::uint32_t shape = 0; shape < shape_count; ++shape) {
         const std::vector<Cut> cuts = cuts_of(shape, seed);
         for (const Surface* one : {&ball, &finer, &finest})
