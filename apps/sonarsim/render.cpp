@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -29,21 +28,22 @@ constexpr const char* run_again =
 struct RenderArguments {
     MissionOptions mission;
     RenderOptions render;
-    std::optional<Shard> shard;
     bool no_files = false;
     bool strict = false;
     LogOptions log;
 };
 
-/// The shard that the command line names, else the task of a Slurm array, else all of the mission.
-void take_shard(const std::optional<Shard>& given, RenderOptions& options) {
-    const std::optional<Shard> shard = given ? given : shard_of_slurm();
-    if (!shard) return;
-    if (!given)
-        spdlog::info("--shard {}/{}, by SLURM_ARRAY_TASK_ID; --shard 1/1 renders all of it",
-                     shard->index + 1, shard->count);
-    options.shard = shard->index;
-    options.shards = shard->count;
+/// Takes the shard "2/4" of the command line, where shards count from 1.
+void take_shard(const std::string& text, RenderOptions& options) {
+    constexpr std::int64_t max_shards = 1'000'000;
+    const std::size_t slash = text.find('/');
+    const auto shard = parse_integer(text.substr(0, slash));
+    const auto shards =
+        slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
+    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > max_shards)
+        throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
+    options.shard = static_cast<int>(*shard - 1);
+    options.shards = static_cast<int>(*shards);
 }
 
 double pings_per_s(const RenderSummary& summary) {
@@ -195,7 +195,6 @@ Outcome render_variants(const RenderArguments& arguments, const Mission& mission
 int render(const RenderArguments& given) {
     RenderArguments arguments = given;
     arguments.render.files = !arguments.no_files;
-    take_shard(arguments.shard, arguments.render);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     const Mission mission = load(arguments.mission);
@@ -238,8 +237,9 @@ void add_render(CLI::App& app, int& exit_code) {
     add_threads_option(command, arguments.render.threads);
     command
         .add_option_function<std::string>(
-            "--shard", [&shard = arguments.shard](const auto& text) { shard = parse_shard(text); },
-            "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
+            "--shard",
+            [&options = arguments.render](const auto& text) { take_shard(text, options); },
+            "Renders the I-th of N parts, counted from 1")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments.render.overwrite,
                      "Replaces another dataset in the output folder: removes the folders of its "

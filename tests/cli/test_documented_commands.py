@@ -97,8 +97,7 @@ def fill(folder, clone):
 
 def run(command, folder):
     """What is wrong with a command, or nothing."""
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("MAKE", "MFLAGS", "SLURM_"))}
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
     environment["PATH"] = f"{folder}/bin:{os.environ['PATH']}"
     result = subprocess.run(["bash", "-euc", command], cwd=folder, env=environment, text=True,
                             capture_output=True, stdin=subprocess.DEVNULL, timeout=300, check=False)

@@ -34,7 +34,7 @@ echo $job
 [[ $ok == 1 ]] || exit 0
 export SLURM_CPUS_PER_TASK=2
 if [[ $tasks == 0 ]]; then "$@" >"$log" 2>&1; exit 0; fi
-export SLURM_ARRAY_TASK_COUNT=$tasks SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=$tasks
+export SLURM_ARRAY_TASK_COUNT=$tasks
 for ((k = 1; k <= tasks; ++k)); do
     SLURM_ARRAY_TASK_ID=$k "$@" >"${log/\\%a/$k}" 2>&1 || touch "$SLURM_FAILED/$job"
 done
@@ -164,19 +164,6 @@ class Clusters(Sandbox):
             for index in indices:
                 self.run_program("/bin/sh", "-c", command, env={**environment, "JOB_COMPLETION_INDEX": str(index)})
         self.assertEqual(digest(self.folder / "big"), self.whole)
-
-    def test_shards_by_the_task_of_an_array(self):
-        def in_array(task, count, first=1, last=None):
-            return dict(os.environ, SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT=str(count),
-                        SLURM_ARRAY_TASK_MIN=str(first), SLURM_ARRAY_TASK_MAX=str(last or count))
-        for task, shard in ((4, 1), (6, 2), (8, 3)):
-            result = self.assert_renders(env=in_array(task, 3, 4, 8))
-            self.assertIn(f"--shard {shard}/3", result.stderr)
-        self.assertEqual(digest(self.out), self.whole)
-        # The command line counts first, and an array may have a gap.
-        self.assert_renders("--shard", "1/1", "--overwrite", env=in_array(2, 3))
-        self.assertEqual(digest(self.out), self.whole)
-        self.assert_refused(self.render(env=in_array(3, 3, 1, 7)), "task 3 of a Slurm array", "--array=1-N", "--shard I/N")
 
 
 class FirstPicture(Sandbox):
