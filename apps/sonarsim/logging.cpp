@@ -111,14 +111,13 @@ void add_log_options(CLI::App& command, LogOptions& options, LogResult result) {
     command.add_option("--log-level", options.level, "trace, debug, info, warning or error")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
         ->capture_default_str();
-    if (result == LogResult::text) {
-        command.add_flag("-q,--quiet", options.quiet, "Only warnings and errors");
-        return;
-    }
+    const bool json = result == LogResult::text_or_json;
     command.add_flag("-q,--quiet", options.quiet,
-                     "Only warnings and errors; --json still prints its result");
-    command.add_flag("--json", options.json,
-                     "Log lines on stderr and the result on stdout as JSON");
+                     json ? "Only warnings and errors; --json still prints its result"
+                          : "Only warnings and errors");
+    if (json)
+        command.add_flag("--json", options.json,
+                         "Log lines on stderr and the result on stdout as JSON");
 }
 
 void start_logging(const LogOptions& options) {

@@ -11,7 +11,6 @@
 #include "core/file.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
-#include "run/checks/measured_error.h"
 
 namespace sonarsim {
 
@@ -26,7 +25,15 @@ struct ReportArguments {
     LogOptions log;
 };
 
-void write_files(const Report& report, const std::filesystem::path& folder) {
+/// The mission without the scattering of the water's volume.
+Mission without_water_echoes(Mission mission) {
+    mission.water.content = WaterContent::none;
+    mission.water.scattering_db_per_m3.reset();
+    mission.water.layers.clear();
+    return mission;
+}
+
+void write_files(const Json& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     write_file(folder / "report.json", report_json(report));
     write_file(folder / "report.md", report_markdown(report));
@@ -84,10 +91,10 @@ int report(const ReportArguments& arguments) {
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };
     const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
-    Report result = make_report(mission, assembly, settings, options, progress);
-    result.multipath = measure_multipath(mission, assembly, options, progress);
+    Json result = make_report(mission, assembly, settings, options, progress);
+    result["multipath_rows"] = measure_multipath(mission, assembly, options, progress);
     progress("the job with labels and files");
-    result.job = measure_job(whole, result.rows.front().at("ms_131k_rays"), options);
+    result["job"] = measure_job(whole, result["rows"].at(0).at("ms_131k_rays"), options);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));

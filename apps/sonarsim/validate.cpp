@@ -85,11 +85,13 @@ struct Findings {
     }
 };
 
-/// The findings in all variants of a mission.
-struct VariantFindings {
-    Estimate estimate;  ///< sum, if all cost what the first costs
-    std::string first;  ///< text about the first
+/// The mission, or all its variants, as they are printed.
+struct Report {
+    std::string first;   ///< text about the mission, or the first variant
+    Json first_as_json;  ///< the same
+    std::string state;   ///< of its folder
     std::vector<Warning> warnings;
+    Estimate estimate;  ///< sum, if all variants cost what the first costs
 };
 
 Json json_of(const Findings& f) {
@@ -108,12 +110,11 @@ Json json_of(const Findings& f) {
         sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene, f.assembly.objects);
         sensor["measured_error"] = json_of(f.errors[i]);
     }
-    describe_estimate(f.estimate(), json);
     return json;
 }
 
 /// The lines about the scene, the trajectory and the sonars.
-std::string text_of_parts(const Findings& f) {
+std::string text_of(const Findings& f) {
     const Scene& scene = f.assembly.scene;
     const Trajectory& trajectory = f.assembly.trajectory;
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
@@ -147,11 +148,6 @@ std::string text_of_parts(const Findings& f) {
         text += error_line(f.errors[i], scene, f.mission.accuracy.relative_l1);
     }
     return text;
-}
-
-std::string text_of(const Findings& f) {
-    return result_line("mission", f.mission.name) + text_of_parts(f) + estimate_text(f.estimate()) +
-           result_line("folder", fmt::format("{} ({})", f.mission.output.folder.string(), f.state));
 }
 
 /// InputError for a folder in which nothing can be written.
@@ -190,7 +186,7 @@ void survey_mission(Findings& findings) {
     append(findings.warnings, find_warnings(mission, assembly, findings.sonars, *rays));
     // If not even one ping has room in memory, none is made to measure its time.
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (exceeds_memory(assembly.sonars, available)) {
+    if (!memory_warnings(assembly.sonars, 1, available).empty()) {
         findings.costs.assign(assembly.sonars.size(), {unknown, unknown});
         findings.errors.resize(assembly.sonars.size());
         return;
@@ -209,85 +205,77 @@ Mission checked_variant(const Mission& variant) {
     return checked;
 }
 
-void announce(const std::string& what) {
-    spdlog::info("{}", what);
-}
-
-/// Checks every variant, since scenes differ and each may fail for its own reasons. Casts rays only
-/// in the first.
-VariantFindings check_variants(const Variants& variants, const ValidateArguments& arguments) {
-    VariantFindings all;
+/// Checks a mission or every variant, since scenes differ and each may fail for its own reasons.
+/// Casts rays only in the first.
+Report check(const Mission& mission, const Variants& variants, const ValidateArguments& arguments) {
+    Report report;
     std::vector<PingCost> costs;
     double set_up_s = 0.0;
     SceneStore models;
-    models.announce = announce;
-    ProgressLine line(arguments.log, "variants");
-    for (int i = 0; i < variants.size(); ++i) {
+    models.announce = [](const std::string& what) { spdlog::info("{}", what); };
+    std::optional<ProgressLine> line;
+    if (variants.size() > 0) line.emplace(arguments.log, "variants");
+    for (int i = 0; i < std::max(variants.size(), 1); ++i) {
         Stopwatch watch;
-        const bool is_first = i == 0;
-        const Mission variant = variants[i];
-        const Mission checked = is_first ? variant : checked_variant(variant);
+        const Mission one = variants.size() > 0 ? variants[i] : mission;
+        const Mission checked = i == 0 ? one : checked_variant(one);
         const Assembly assembly = assemble(checked, models);
         models.announce = nullptr;  // the other variants take as long
         const double assemble_s = watch.lap();
         Findings findings = check_folder(checked, assembly, arguments.overwrite);
-        if (is_first) {
+        if (i == 0) {
             findings.set_up_s = assemble_s;
             survey_mission(findings);
-            all.warnings = findings.warnings;
-            all.first = text_of_parts(findings);
+            report = {text_of(findings), json_of(findings), findings.state, findings.warnings, {}};
             set_up_s = findings.set_up_s;
             costs = findings.costs;
         }
-        line.show(i + 1, variants.size());
+        if (line) line->show(i + 1, variants.size());
         findings.set_up_s = set_up_s;
         findings.costs = costs;
-        all.estimate += findings.estimate();
+        report.estimate += findings.estimate();
     }
-    return all;
+    return report;
 }
 
-void print_variants(const Mission& mission, int variants, const VariantFindings& all,
-                    bool as_json) {
-    if (as_json) {
-        Json json{{"mission", mission.name},
-                  {"variants", variants},
-                  {"folder", mission.output.folder.string()},
-                  {"warnings", warnings_json(all.warnings)}};
-        describe_estimate(all.estimate, json);
-        fmt::print("{}\n", json_line(json));
-        return;
+Json json_of(const Report& report, const Mission& mission, int variants) {
+    Json json = report.first_as_json;
+    if (variants > 0) {
+        json = {{"mission", mission.name},
+                {"variants", variants},
+                {"folder", mission.output.folder.string()},
+                {"warnings", warnings_json(report.warnings)}};
     }
-    fmt::print("{}{}{}{}{}{}{}", result_line("mission", mission.name),
-               result_line("variants", std::to_string(variants)),
-               result_line("surveyed", variant_folder(0) + ":"), all.first,
-               result_line("together", fmt::format("{} variants:", variants)),
-               estimate_text(all.estimate), result_line("folder", mission.output.folder.string()));
+    describe_estimate(report.estimate, json);
+    return json;
+}
+
+std::string text_of(const Report& report, const Mission& mission, int variants) {
+    const std::string folder = mission.output.folder.string();
+    const std::string text = result_line("mission", mission.name);
+    const std::string estimate = estimate_text(report.estimate);
+    if (variants == 0)
+        return text + report.first + estimate +
+               result_line("folder", folder + " (" + report.state + ")");
+    return text + result_line("variants", std::to_string(variants)) +
+           result_line("surveyed", variant_folder(0) + ":") + report.first +
+           result_line("together", fmt::format("{} variants:", variants)) + estimate +
+           result_line("folder", folder);
 }
 
 int validate(const ValidateArguments& arguments) {
     const Mission mission = load(arguments.mission);
     const Variants variants = load_variants(arguments.mission, mission);
-    if (variants.size() > 0) {
+    const int count = variants.size();
+    if (count > 0)
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
-        const VariantFindings all = check_variants(variants, arguments);
-        if (arguments.log.prints_result())
-            print_variants(mission, variants.size(), all, arguments.log.json);
-        return log_warnings(all.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
-    }
-    Stopwatch watch;
-    SceneStore models;
-    models.announce = announce;
-    const Assembly assembly = assemble(mission, models);
-    const double assemble_s = watch.lap();
-    Findings findings = check_folder(mission, assembly, arguments.overwrite);
-    findings.set_up_s = assemble_s;
-    survey_mission(findings);
-    if (arguments.log.prints_result())
-        fmt::print("{}",
-                   arguments.log.json ? json_line(json_of(findings)) + "\n" : text_of(findings));
-    return log_warnings(findings.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
+    const Report report = check(mission, variants, arguments);
+    if (arguments.log.json)
+        fmt::print("{}\n", json_line(json_of(report, mission, count)));
+    else if (arguments.log.prints_result())
+        fmt::print("{}", text_of(report, mission, count));
+    return log_warnings(report.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
 }
 
 }  // namespace

@@ -152,10 +152,10 @@ TEST_CASE("memory: W26 where pings on all threads have no room") {
     const std::vector<Sonar> sonars{make_sonar(line_array(), {})};
     const double one = ping_memory(sonars[0]).bytes;
     CHECK(memory_warnings(sonars, 4, 4.0 * one).empty());
-    CHECK(!exceeds_memory(sonars, one));
+    CHECK(memory_warnings(sonars, 1, one).empty());
     const std::vector<Warning> found = memory_warnings(sonars, 4, 3.9 * one);
     REQUIRE(found.size() == 1);
     CHECK(sentence(found[0]).starts_with("W26 sensor 'fls': a ping takes about"));
     CHECK(found[0].cure.starts_with("lower range_bins"));
-    CHECK(exceeds_memory(sonars, 0.9 * one));
+    CHECK(!memory_warnings(sonars, 1, 0.9 * one).empty());
 }

@@ -1,8 +1,7 @@
-#include "run/checks/directions.h"
-
 #include <cmath>
 
 #include "core/units.h"
+#include "run/checks/survey.h"
 
 namespace sonarsim {
 

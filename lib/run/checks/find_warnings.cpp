@@ -65,12 +65,9 @@ double cell_of_heightmap_m(const Assembly& assembly) {
 /// W37 for the finest bins of all sonars.
 void judge_heightmap(const Assembly& assembly, std::vector<Warning>& out) {
     constexpr double max_bins = 8.0;
-    if (assembly.sonars.empty()) return;
     double bin_m = std::numeric_limits<double>::infinity();
-    for (const Sonar& sonar : assembly.sonars) {
-        const View& view = sonar.settings.view;
-        bin_m = std::min<double>(bin_m, (view.range_max_m - view.range_min_m) / view.range_bins);
-    }
+    for (const Sonar& sonar : assembly.sonars)
+        bin_m = std::min(bin_m, sonar.settings.view.bin_m());
     const double cell_m = cell_of_heightmap_m(assembly);
     if (cell_m <= max_bins * bin_m) return;
     out.push_back(make_warning(WarningCode::heightmap_facets, "scene.heightmap", cell_m, bin_m,
@@ -227,11 +224,6 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
                                    available / giga, ping.key));
     }
     return out;
-}
-
-bool exceeds_memory(const std::vector<Sonar>& sonars, double available) {
-    return std::ranges::any_of(
-        sonars, [&](const Sonar& sonar) { return ping_memory(sonar).bytes > available; });
 }
 
 }  // namespace sonarsim

@@ -70,7 +70,4 @@ PingMemory ping_memory(const Sonar& sonar);
 std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threads,
                                      double available);
 
-/// True if one ping of any of the sonars takes more than the `available` bytes.
-bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
-
 }  // namespace sonarsim

@@ -128,13 +128,6 @@ double MeasuredError::min_measurable() const {
     return noise / measurable;
 }
 
-Mission without_water_echoes(Mission mission) {
-    mission.water.content = WaterContent::none;
-    mission.water.scattering_db_per_m3.reset();
-    mission.water.layers.clear();
-    return mission;
-}
-
 Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                          const Pose& T_world_sensor, ReferenceGoal goal) {
     goal.cell_m2 = cell_m2_of(sonar);

@@ -32,9 +32,6 @@ struct MeasuredError {
     double min_measurable() const;
 };
 
-/// The mission without the scattering of the water's volume.
-Mission without_water_echoes(Mission mission);
-
 /// Casts the reference of a sonar's direct echoes of surface, for either echo model.
 Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                          const Pose& T_world_sensor, ReferenceGoal goal);

@@ -7,7 +7,6 @@
 #include "core/units.h"
 #include "input/scene/copies.h"
 #include "input/scene/mesh_topology.h"
-#include "run/checks/directions.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/arrivals.h"

@@ -61,6 +61,13 @@ struct SonarSurvey {
     std::vector<std::size_t> visible;  ///< number of pings with its surface, by Assembly::objects
 };
 
+/// Unit vectors of the sensor frame along which to look for surface: about a thousand over the
+/// sphere, and a few dozen over the field of view, however narrow it is.
+std::vector<Eigen::Vector3f> look_around(const View& view);
+
+/// True if a direction lies in the azimuths of a fan, at any elevation; ahead, for a cone.
+bool is_in_azimuth(const View& view, const Eigen::Vector3f& direction);
+
 /// Traces a few dozen pings of every sonar of the mission with rays, coarsely sampled. The result
 /// is indexed by Mission::sensors. The same mission gives the same numbers.
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,

@@ -133,18 +133,18 @@ DatasetFile require_part(const fs::path& folder, const fs::path& first) {
 
 CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
                               const Layout& layout) {
-    CommonFiles files{describe_dataset(mission, assembly, layout), resolved_text(mission, assembly),
-                      write_tum(assembly.trajectory)};
-    if (assembly.seabed) files.initial = seabed_files(*assembly.seabed);
+    CommonFiles files{describe_dataset(mission, assembly, layout),
+                      resolved_text(mission, assembly)};
+    if (assembly.seabed) files.others = seabed_files(*assembly.seabed);
+    files.others.emplace_back(trajectory_name, write_tum(assembly.trajectory));
     if (!assembly.reported.empty())
-        files.initial.emplace_back(navigation_name, write_tum(assembly.reported));
+        files.others.emplace_back(navigation_name, write_tum(assembly.reported));
     return files;
 }
 
 double bytes_of(const CommonFiles& files) {
-    std::size_t bytes =
-        json_text(files.description).size() + files.mission.size() + files.trajectory.size();
-    for (const auto& [name, content] : files.initial)
+    std::size_t bytes = json_text(files.description).size() + files.mission.size();
+    for (const auto& [name, content] : files.others)
         bytes += content.size();
     return static_cast<double>(bytes);
 }
@@ -232,10 +232,9 @@ FolderState claim_folder(const fs::path& folder, const CommonFiles& files) {
 
 void write_common_files(const Layout& layout, const CommonFiles& files) {
     write_file(layout.folder / mission_name, files.mission);
-    write_file(layout.folder / trajectory_name, files.trajectory);
     for (const fs::path& folder : layout.folders())
         fs::create_directories(folder);
-    for (const auto& [name, bytes] : files.initial)
+    for (const auto& [name, bytes] : files.others)
         write_file(layout.folder / name, bytes);
 }
 

@@ -17,13 +17,11 @@ enum class FolderState {
 };
 
 /// The text of the files that do not belong to one ping.
-struct CommonFiles {         // NOLINT(bugprone-exception-escape): moving JSON throws nothing
-    Json description;        ///< dataset.json, not complete
-    std::string mission;     ///< mission.resolved.yaml
-    std::string trajectory;  ///< trajectory.tum
-    /// Names relative to the folder and bytes of the shared products that are there from the
-    /// beginning.
-    std::vector<std::pair<std::string, std::string>> initial = {};
+struct CommonFiles {      // NOLINT(bugprone-exception-escape): moving JSON throws nothing
+    Json description;     ///< dataset.json, not complete
+    std::string mission;  ///< mission.resolved.yaml
+    /// Names relative to the folder and bytes of the trajectory and the shared products.
+    std::vector<std::pair<std::string, std::string>> others = {};
 };
 
 CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,

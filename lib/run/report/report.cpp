@@ -94,7 +94,7 @@ double mean_over(const std::vector<Figures>& poses, double Figures::*figure) {
 
 /// The reference at each pose. Adds their noise to the report.
 std::vector<Reference> cast_references(const Comparison& comparison, const Sonar& sonar,
-                                       Report& report) {
+                                       Json& report) {
     const PingSet& pings = comparison.pings;
     const ReferenceGoal goal{comparison.options.reference_noise, 64.0,
                              comparison.options.reference_rays};
@@ -105,7 +105,7 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
     const auto noisiest = std::ranges::max_element(references, {}, &Reference::noise);
-    report.references.push_back(
+    report["reference"].push_back(
         {{"sensor", sonar.config.name},
          {"noise_mean", mean_over(references, &Reference::noise)},
          {"noise_max", noisiest->noise},
@@ -186,8 +186,7 @@ std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, con
 
 /// All settings on one sonar.
 void report_sonar(const Comparison& comparison, const Assembly& assembly, const Sonar& sonar,
-                  std::span<const Setting> settings, const ReportProgress& progress,
-                  Report& report) {
+                  std::span<const Setting> settings, const ReportProgress& progress, Json& report) {
     const PingSet& pings = comparison.pings;
     const std::string& name = sonar.config.name;
     progress(name + ": casting the reference");
@@ -215,7 +214,8 @@ void report_sonar(const Comparison& comparison, const Assembly& assembly, const 
     for (std::size_t s = 0; s < trials.size(); ++s)
         rows.push_back(row_of(name, settings[s], trials[s]));
     mark_front(rows);
-    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+    for (Json& row : rows)
+        report["rows"].push_back(std::move(row));
 }
 
 }  // namespace
@@ -259,19 +259,23 @@ std::string unsupported(const Setting& setting, const Assembly& assembly) {
     return refusal;
 }
 
-Report make_report(const Mission& mission, const Assembly& assembly,
-                   std::span<const Setting> settings, const ReportOptions& options,
-                   const ReportProgress& progress) {
-    Report report;
-    report.mission = mission.name;
-    report.triangles = all_triangles(assembly.scene);
-    ::getloadavg(&report.load, 1);
+Json make_report(const Mission& mission, const Assembly& assembly,
+                 std::span<const Setting> settings, const ReportOptions& options,
+                 const ReportProgress& progress) {
+    double load = 0.0;
+    ::getloadavg(&load, 1);
+    Json report;
     on_threads(options.threads, [&](int threads) {
-        report.threads = threads;
         const Caster caster(assembly.scene);
         Comparison comparison{PingSet(mission, assembly, options.poses), caster, options};
         comparison.options.threads = threads;
-        report.poses = static_cast<int>(comparison.pings.poses.size());
+        report = {{"mission", mission.name},
+                  {"triangles", all_triangles(assembly.scene)},
+                  {"poses", comparison.pings.poses.size()},
+                  {"threads", threads},
+                  {"load", load},
+                  {"rows", Json::array()},
+                  {"reference", Json::array()}};
         for (const Sonar& sonar : assembly.sonars)
             report_sonar(comparison, assembly, sonar, settings, progress, report);
     });

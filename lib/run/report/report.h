@@ -48,27 +48,17 @@ struct ReportOptions {
     std::uint64_t reference_rays = 200'000'000;  ///< limit per image
 };
 
-struct Report {
-    std::string mission;
-    std::size_t triangles = 0;  ///< copies included
-    int poses = 0;
-    int threads = 0;
-    double load = 0.0;       ///< load average of the machine at the start
-    std::vector<Json> rows;  ///< one for each sonar and setting
-    /// The noise of the reference images of each sonar, and the rays that echoed per occupied bin.
-    Json references = Json::array();
-    std::vector<Json> multipath;  ///< measure_multipath()
-    Json job;                     ///< measure_job()
-};
-
 using ReportProgress = std::function<void(const std::string&)>;
 
 /// Measures every sonar of a mission with every one of `settings`, on poses sampled along the
 /// trajectory. Settings take turns, so that a machine that slows down slows all of them. Errors are
-/// those of the direct echoes without noise against cast_reference().
-Report make_report(const Mission& mission, const Assembly& assembly,
-                   std::span<const Setting> settings, const ReportOptions& options,
-                   const ReportProgress& progress);
+/// those of the direct echoes without noise against cast_reference(). The report is the JSON that
+/// is written: `triangles` with those of copies, `load` of the machine at the start, `rows` by
+/// sonar and setting, `reference` by sonar: noise, and rays that echoed per occupied bin; without
+/// `multipath_rows` and `job` (measure_multipath(), measure_job()).
+Json make_report(const Mission& mission, const Assembly& assembly,
+                 std::span<const Setting> settings, const ReportOptions& options,
+                 const ReportProgress& progress);
 
 /// The multipath methods that a report compares: exact, and clusters for epsilon in {1, 3, 5, 9}
 /// bins and delta in {5, 15, 30} degrees; and `own`.
@@ -86,9 +76,9 @@ std::vector<Json> measure_multipath(const Mission& mission, const Assembly& asse
 /// that an image is compared with.
 Json measure_job(const Mission& mission, double ms_rays, const ReportOptions& options);
 
-/// The report as JSON, and as Markdown tables.
-std::string report_json(const Report& report);
-std::string report_markdown(const Report& report);
+std::string report_json(const Json& report);
+/// Tables of a report with all of its parts.
+std::string report_markdown(const Json& report);
 
 /// 0 for no values.
 double median_of(std::vector<double> values);

@@ -9,19 +9,6 @@ namespace sonarsim {
 
 namespace {
 
-Json json_of(const Report& report) {
-    Json json{{"mission", report.mission},
-              {"triangles", report.triangles},
-              {"poses", report.poses},
-              {"threads", report.threads},
-              {"load", report.load}};
-    json["rows"] = report.rows;
-    json["reference"] = report.references;
-    json["multipath_rows"] = report.multipath;
-    json["job"] = report.job;
-    return json;
-}
-
 /// Three significant digits, without an exponent.
 std::string short_number(double x) {
     if (!(x >= 5e-5)) return "0";
@@ -70,24 +57,25 @@ std::string table(const Json& rows, const Json& sensor, const std::vector<Column
 
 }  // namespace
 
-std::string report_json(const Report& report) {
-    return json_of(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string report_json(const Json& report) {
+    return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string report_markdown(const Report& report) {
-    const Json json = json_of(report);
-    std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
-                                   report.triangles, report.poses, report.threads);
-    if (report.load > 0.5)
-        text +=
-            fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
-    for (const Json& reference : report.references) {
+std::string report_markdown(const Json& report) {
+    const auto count = [](const Json& value) { return value.get<std::uint64_t>(); };
+    std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n",
+                                   report["mission"].get<std::string>(), count(report["triangles"]),
+                                   count(report["poses"]), count(report["threads"]));
+    const double load = number(report["load"]);
+    if (load > 0.5)
+        text += fmt::format("The machine was busy (load {:.1f}): times are too long.\n", load);
+    for (const Json& reference : report["reference"]) {
         const Json& sensor = reference["sensor"];
         text += fmt::format("\n{}: the noise of the reference is {} %, at most {} %.\n",
                             sensor.get<std::string>(),
                             short_number(100.0 * number(reference["noise_mean"])),
                             short_number(100.0 * number(reference["noise_max"])));
-        text += table(json["rows"], sensor,
+        text += table(report["rows"], sensor,
                       {{"engine", "engine"},
                        {"setting", "setting"},
                        {"ms_per_ping", "ms per ping"},
@@ -98,7 +86,7 @@ std::string report_markdown(const Report& report) {
                        {"goal", "goal"},
                        {"miss_rate", "missed bins, %"},
                        {"samples_per_ping", "samples"}});
-        text += table(json["multipath_rows"], sensor,
+        text += table(report["multipath_rows"], sensor,
                       {{"method", "multipath"},
                        {"epsilon_bins", "epsilon"},
                        {"delta_deg", "delta"},
@@ -109,12 +97,12 @@ std::string report_markdown(const Report& report) {
                        {"ms_per_ping", "ms per ping"},
                        {"times_without", "times the ping without"}});
     }
-    const auto job = [&](const char* key) { return short_number(number(report.job[key])); };
+    const auto job = [&](const char* key) { return short_number(number(report["job"][key])); };
     text += fmt::format(
         "\nThe job makes {} images/s with labels and files on {} threads ({} images). On one "
         "thread an image takes: trace {} ms, form {} ms, facts {} ms, files {} ms; {} x 131k rays "
         "of the first sonar. Set-up: {} ms.\n",
-        job("images_per_s"), report.threads, report.job["images"].get<std::uint64_t>(),
+        job("images_per_s"), count(report["threads"]), count(report["job"]["images"]),
         job("ms_trace"), job("ms_form"), job("ms_facts"), job("ms_files"), job("times_131k_rays"),
         job("ms_set_up"));
     return text;
