@@ -19,9 +19,8 @@ inline void add_examples(CLI::App& command, std::initializer_list<const char*> l
     command.footer(text);
 }
 
-/// Adds a subcommand to a group of --help, with the arguments of `run`, which live as long as the
-/// subcommand. Its callback starts the log, if it has options of it, and stores the exit code of
-/// `run`.
+/// Adds a subcommand to a group of --help, with the arguments of `run`, which live as long as it.
+/// Its callback starts the log, if it has options of it, and stores the exit code of `run`.
 template <class Arguments>
 std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, int& exit_code, const char* name,
                                              const char* meaning, const char* group,
@@ -55,9 +54,8 @@ void add_warnings(CLI::App& app, int& exit_code);
 /// Lists the commands of the Python package in --help.
 void add_python_tools(CLI::App& app);
 
-/// Becomes `python3 -m sonarsim.NAME ...` if the command line names a command of the Python
-/// package, with all further options as they are. Returns if it names none. InputError where Python
-/// or the package is missing.
+/// Becomes `python3 -m sonarsim.NAME ...`, with all further options, if the command line names a
+/// command of the Python package. InputError where Python or the package is missing.
 void become_python_tool(int argc, char** argv);
 
 }  // namespace sonarsim

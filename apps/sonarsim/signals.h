@@ -5,10 +5,9 @@
 
 namespace sonarsim {
 
-/// Installs a handler: the first Ctrl-C (SIGINT) or SIGTERM sets the returned flag. If the program
-/// has not ended a second later, because it loads a scene or renders a long ping, the handler
-/// writes `last_words` to stderr and exits with code 128 plus the signal's number. A second signal
-/// ends the program at once.
+/// The first Ctrl-C (SIGINT) or SIGTERM sets the returned flag. If the program has not ended a
+/// second later, as in a long ping, it writes `last_words` to stderr and exits with code 128 plus
+/// the signal's number. A second signal ends the program at once.
 std::atomic<bool>& stop_on_signal(std::string_view last_words);
 
 /// The received signal, or 0.

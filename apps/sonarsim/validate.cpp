@@ -89,7 +89,7 @@ struct Findings {
 struct Report {
     std::string first;   ///< text about the mission, or the first variant
     Json first_as_json;  ///< the same
-    std::string state;   ///< of its folder
+    std::string state;   ///< state of its folder
     std::vector<Warning> warnings;
     Estimate estimate;  ///< sum, if all variants cost what the first costs
 };

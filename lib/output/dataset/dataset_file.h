@@ -31,17 +31,16 @@ struct DatasetFile {  // NOLINT(bugprone-exception-escape): moving JSON throws n
     std::vector<std::string> products;  ///< products of all sensors together
 };
 
-/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than a quarter of
-/// a gigabyte, is not JSON or is nested more than 64 deep.
+/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than 256 MiB, is
+/// not JSON or is nested more than 64 deep.
 Json read_json(const std::filesystem::path& path);
 
-/// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
-/// InputError when it cannot be read.
+/// As it is, keys not checked; nothing if it is not sonarsim's. InputError if it cannot be read.
 std::optional<Json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of dataset.json; `file` is for the messages. InputError when it is of another
-/// version of the format, when a key is missing or of another type, and when a path is not that of
-/// a file in the folder of its sensor.
+/// The one reader of dataset.json; `file` is for the messages. InputError for another version of
+/// the format, a key that is missing or of another type, or a path outside the folder of its
+/// sensor.
 DatasetFile parse_description(Json json, const std::string& file);
 
 /// The dataset.json of a folder that must hold a dataset: else InputError.
@@ -49,9 +48,9 @@ DatasetFile require_dataset(const std::filesystem::path& folder);
 
 inline constexpr const char* another_mission = "of another mission";
 
-/// The difference between two descriptions as the end of a sentence that begins with "a dataset":
-/// "of another mission". Empty if both are the same dataset, complete or not. Their keys need not
-/// be checked.
+/// The difference between two descriptions, whose keys need not be checked, as the end of a
+/// sentence about "a dataset": "of another mission". Empty if both are the same dataset, complete
+/// or not.
 std::string difference_between(const Json& found, const Json& expected);
 
 /// "fls/polar/%06d.npy" with the number of a ping's pose in it.
@@ -70,8 +69,7 @@ std::vector<std::string> list_files(const std::filesystem::path& folder,
 
 std::uint64_t count_pings(const DatasetFile& dataset);
 
-/// True if the text is the name of a file or folder that lies in another one directly: letters of
-/// ASCII, digits, '_', '-', '+' and '.', the first one not a '.'.
+/// True for a name of letters of ASCII, digits, '_', '-', '+' and '.', the first one not a '.'.
 bool is_plain_name(std::string_view text);
 
 }  // namespace sonarsim

@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// The brightest pixel of a ping. std::runtime_error that names the sensor and the pose when any
-/// pixel is NaN or infinite: such an image must never reach the disk.
+/// The brightest pixel. std::runtime_error with sensor and pose when any pixel is NaN or infinite:
+/// such an image must never reach the disk.
 float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t pose);
 
 /// Measures and labels a ping and calls `use` with it; `plan` is that of its sensor.

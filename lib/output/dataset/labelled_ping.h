@@ -15,8 +15,7 @@
 
 namespace sonarsim {
 
-/// World boxes around the objects; empty for an object without triangles, and if a part of it
-/// moves.
+/// World boxes around the objects; empty without triangles, and if a part moves.
 std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly);
 
 /// An object that moves as a whole.
@@ -65,8 +64,7 @@ struct LabelledPing {
     std::vector<ObjectInPing> visible;  ///< sorted by id; empty if no writer needs it
 };
 
-/// Labels the bins at the time `t_s`, and finds the masks and seen objects that the writers need.
-/// `plan` must outlive the result.
+/// The labels, masks and seen objects at the time `t_s`; `plan` must outlive the result.
 LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
                                const VisibilityEngine& engine, const TracedPing& traced,
                                const Ping& ping, double t_s);

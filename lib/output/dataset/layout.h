@@ -14,9 +14,8 @@
 //     OUT/mission.resolved.yaml       the mission with every default written out
 //     OUT/SHA256SUMS                  of every other file, once all of them are there
 //     OUT/trajectory.tum              the pose of every ping number
-//     OUT/journal.txt                 the size and hash of every file of a ping
-//     (run/job/journal.h);
-//                                     while the mission runs, parts of it lie in OUT/journal.d/
+//     OUT/journal.txt                 the size and hash of every file of a ping; during a run
+//                                     parts of it lie in OUT/journal.d/ (run/job/journal.h)
 //     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them
 //     OUT/seabed/*                    the true heights and objects of a generated sea bed
@@ -28,8 +27,7 @@ namespace sonarsim {
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);
-/// The parts of the journal in OUT/journal.d/: regular files, no links. Other runs may remove them
-/// meanwhile.
+/// The parts of the journal: regular files, no links. Other runs may remove them meanwhile.
 std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder);
 
 struct SensorLayout {
@@ -42,8 +40,7 @@ struct SensorLayout {
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
-    /// Files of no single sensor, written before the first ping: those of a generated sea bed, and
-    /// the reported poses.
+    /// Files of no single sensor: those of a generated sea bed, and the reported poses.
     std::vector<std::string> products;
     std::size_t poses = 0;
     int digits = 6;  ///< digits of a ping number

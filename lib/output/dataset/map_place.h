@@ -18,8 +18,7 @@ inline Eigen::Vector2d map_origin(const Mission& mission) {
 }
 
 /// Writes a map of the bottom: NAME.tif with its values, and NAME.json with the keys of `head`, the
-/// place and the keys of `tail`. The place is in the coordinates of the scene's heightmap, if there
-/// is one, else in those of the world.
+/// place (in the coordinates of the scene's heightmap, else of the world) and the keys of `tail`.
 inline void write_map(const WriterContext& context, const std::filesystem::path& folder,
                       const std::string& name, const GroundGrid& map, std::vector<float> values,
                       Json head, const Json& tail) {

@@ -19,8 +19,8 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
 /// The block `build` of dataset.json: this program.
 Json describe_build();
 
-/// mission.resolved.yaml: the mission with paths that start at the folder of the scene file, and
-/// the SHA-256 of what it read in comments. The same wherever mission and dataset lie.
+/// mission.resolved.yaml: the mission with paths from the folder of the scene file on, and the
+/// SHA-256 of what it read in comments. The same wherever mission and dataset lie.
 std::string resolved_text(const Mission& mission, const Assembly& assembly);
 
 /// 32 hexadecimal digits that differ when a file that the mission names, the scene's surface or the

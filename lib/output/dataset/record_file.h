@@ -27,14 +27,12 @@ enum class RecordAccess {
     read,   ///< opens a file that is there
 };
 
-/// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
-/// thread and any process in any order. The file has its full length from the beginning. Records
-/// that are not written yet are zero and take no space on the disk.
+/// A NumPy file of equal records, one per ping, that any thread and process fills in any order. It
+/// has its full length from the beginning: missing records are zero and take no space on the disk.
 class RecordFile {
   public:
-    /// The data of `format` are `records` records of equal size. std::system_error when the disk
-    /// does not allow it, or when the name belongs to a symbolic link; std::runtime_error when a
-    /// file to be read is not of this format and length.
+    /// The data of `format` are `records` records. std::system_error when the disk does not allow
+    /// it or for a link; std::runtime_error if a file to read is not of this format and length.
     RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records,
                RecordAccess access = RecordAccess::write);
 
@@ -48,8 +46,7 @@ class RecordFile {
     /// The hash of a record's bytes, as hash_of_record().
     std::string hash(std::size_t record) const;
 
-    /// Closes the file after the last record. std::system_error when the disk did not take all
-    /// records: some file systems report this only here.
+    /// std::system_error when the disk did not take all records, which some report only here.
     void close();
 
   private:

@@ -7,8 +7,7 @@
 
 namespace sonarsim {
 
-/// The most rows (or columns) of pings in a picture; a PNG cannot have many more. If there are more
-/// pings, a row is the mean of several.
+/// The most rows (or columns) of a picture of pings; a PNG cannot have many more.
 inline constexpr std::size_t max_picture_rows = 60'000;
 
 /// The number of pings that share a row.
@@ -22,9 +21,9 @@ inline int picture_rows(std::size_t pings) {
     return static_cast<int>((pings + each - 1) / each);
 }
 
-/// Visits the rows of a strip from the top. A row is a ping or, in an upright strip, one of the
-/// values over all pings. `read` returns the values of ping k; an upright strip reads each ping
-/// again for every block of values that fits into memory.
+/// Visits the rows of a strip from the top: a ping or, if upright, one of the values over all
+/// pings. `read` returns the values of ping k, again for every block of upright rows that fits into
+/// memory.
 template <class T, class Read, class Visit>
 void for_each_strip_row(std::size_t pings, std::size_t values, bool upright, const Read& read,
                         const Visit& visit) {

@@ -77,9 +77,9 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string ids = {};    ///< as in PingFile
 };
 
-// Labels of records that only objects need: the shadow of the objects that are not background,
-// the visible share of the object of a bin, where 65535 means all of the object, and the objects
-// that stand out in a bin, unless `labels.mask` is echo.
+// Labels of records that only objects need: the shadow of the objects that are not background, the
+// visible share of the object of a bin (65535: all), and without `labels.mask: echo` its
+// silhouette.
 inline constexpr const char* object_shadow_record = "object_shadow";
 inline constexpr const char* visible_share_record = "visible_share";
 inline constexpr const char* silhouette_record = "silhouette";
@@ -121,17 +121,15 @@ inline std::string record_bytes(const PingNumbers& numbers) {
 }
 
 /// One output format of one sensor. Its functions may be called by any number of threads at a time,
-/// and the context must outlive it. A resumed run finds the finished pings by the journal, which
-/// has the size of each file and the hash of each record. It makes products again unless all of
-/// them exist.
+/// and the context must outlive it. A resumed run finds finished pings by the sizes and hashes in
+/// the journal.
 struct Writer {
     PingOutput per_ping;
     /// Files that are made of the records of all pings.
     std::vector<std::string> products = {};
     /// The bytes of the ping's file, or of its record.
     std::function<std::string(const FinishedPing&)> encode;
-    /// The numbers that a reader of those bytes gets; null if they are text or a picture for
-    /// people.
+    /// The numbers that a reader of those bytes gets; null for text or a picture for people.
     std::function<PingNumbers(const FinishedPing&)> numbers = {};
     /// Makes the products in a folder, in memory that does not grow with the number of pings.
     std::function<void(const RecordFile&, const std::filesystem::path&)> write_products = {};

@@ -13,9 +13,8 @@ struct MapPlace {
     int epsg = 0;  ///< code of the projected reference system; 0: none
 };
 
-/// A map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read: float32
-/// [rows, columns], not compressed; NaN marks unknown cells and is the nodata value. `values` has
-/// one or more whole rows of `columns` and less than 4 GB.
+/// A map as a GeoTIFF 1.1 (OGC 19-008r4): float32 [rows, columns], not compressed; NaN, the nodata
+/// value, marks unknown cells. `values` has one or more rows of `columns` and less than 4 GB.
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place);
 
 }  // namespace sonarsim

@@ -17,8 +17,7 @@ struct NpyFormat {
 /// The header of a NumPy file, format 1.0. Its length is a multiple of 64 bytes.
 std::string npy_header(const NpyFormat& format);
 
-/// A float32 matrix as a NumPy file, format 1.0, little endian, C order. The data begin at a
-/// multiple of 64 bytes.
+/// A float32 matrix as a NumPy file, format 1.0, little endian, C order.
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns);
 
 }  // namespace sonarsim

@@ -14,13 +14,12 @@ namespace sonarsim {
 /// The kind of a pixel; the value is its number of bytes.
 enum class PixelKind : std::uint8_t { grey8 = 1, grey16 = 2, rgb8 = 3 };
 
-/// The storage of a row: as it is, or each byte as its difference from the pixel to the left
-/// (noise, colours) or above (areas of one value, such as ids).
+/// The bytes of a row: as they are, or their differences from the pixel to the left (noise,
+/// colours) or above (areas of one value, such as ids).
 enum class PngFilter : std::uint8_t { none = 0, left = 1, up = 2 };
 
 /// Packs the bytes of an image as a zlib stream (RFC 1950 and 1951). Only runs of one pixel are
-/// looked for: images of noise repeat nothing else, and the search for other repetitions takes most
-/// of the time of general packers.
+/// looked for: noise repeats nothing else, and general packers search for it most of their time.
 class ZlibPacker {
   public:
     /// `pixel_bytes`, 1 to 4, is the distance at which repeated bytes are looked for.
@@ -65,8 +64,7 @@ class PngEncoder {
     ZlibPacker packer_;
 };
 
-/// Writes a PNG file row by row, so that it may be longer than memory. Throws std::system_error
-/// when the disk does not take it.
+/// Writes a PNG file row by row, so that it may be longer than memory.
 class ImageFile {
   public:
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)

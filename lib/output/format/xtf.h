@@ -36,8 +36,8 @@ struct XtfPing {
 /// The header of the file, 1,024 bytes.
 std::string xtf_header(const XtfFile& file);
 
-/// The record of one ping. `row` holds port from range_max to nadir, then starboard from nadir on.
-/// The port channel keeps that order, as is usual in XTF: its last sample is at nadir.
+/// The record of a ping. `row`, and with it the channels, has port from range_max to nadir, as is
+/// usual in XTF, then starboard from nadir on.
 std::string xtf_record(const XtfFile& file, const XtfPing& ping,
                        std::span<const std::uint16_t> row);
 

@@ -12,21 +12,19 @@
 
 namespace sonarsim {
 
-/// All warnings about a valid mission. `sonars` are by Mission::sensors; `rays` casts into the
-/// scene.
+/// All warnings about a valid mission. `sonars` are by Mission::sensors, `rays` those of the scene.
 std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assembly,
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays);
 
-/// The warnings that need no ping: what reading the scene found, materials, the engine
-/// and the keys of sonars.
+/// The warnings that need no ping: about reading the scene, materials and the keys of sonars.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
-/// Warnings about a sonar in a survey: blind pings and the reasons, echoes below the noise,
-/// pictures that are white or black.
+/// Warnings about a sonar in a survey: blind pings, echoes below the noise, white or black
+/// pictures.
 std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
                                     double full_scale, const SonarSurvey& found);
 
@@ -48,8 +46,7 @@ struct SensorSummary {
     }
 };
 
-/// Images of a run that are black, nearly black or white, or less accurate than the goal. `sensors`
-/// are by Mission::sensors; one without pings has no warnings.
+/// Images of a run that are black, nearly black or white. `sensors` are by Mission::sensors.
 std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SensorSummary> sensors);
 

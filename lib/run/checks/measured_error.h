@@ -36,21 +36,19 @@ struct MeasuredError {
 Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                          const Pose& T_world_sensor, ReferenceGoal goal);
 
-/// The image of the sonar's direct echoes of surface from a pose where sonar and objects stand
-/// still.
+/// The image of the direct echoes of surface from a pose where sonar and objects stand still.
 Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor);
 
-/// Measures the error of each sonar of a mission with its engine, by sonar, at up to three pings
-/// with a bounded number of rays. It depends on the mission alone, not on
-/// threads or on the part that is rendered. Nothing where sound bends, which the reference's rays
-/// do not. Uses all threads of the arena.
+/// Measures the error of each sonar with the mission's engine at up to three pings, with a bounded
+/// number of rays; it depends on the mission alone. Nothing where sound bends, which the
+/// reference's rays do not. Uses all threads of the arena.
 std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const Assembly& assembly,
                                                          const VisibilityEngine& engine);
 
-/// For dataset.json: the mean, the worst and every ping with the noise of its reference. An
-/// error that is not measured is null, and so is that of a sonar without one.
+/// For dataset.json: the mean, the worst and every ping with the noise of its reference; null where
+/// there is no measurement.
 Json json_of(const std::optional<MeasuredError>& error);
 
 /// A warning for each sonar with a measured error above the mission's goal, with the key to change.

@@ -24,9 +24,8 @@ struct JobStatus {
     bool complete() const { return complete_variants == std::max<std::size_t>(variants, 1); }
 };
 
-/// Reads the progress of a dataset, or of the variants of a mission, from its folder, or from the
-/// folders with its shards. InputError when a folder holds no dataset, or one of another mission
-/// than the first.
+/// The progress of a dataset, or of the variants of a mission, in its folder or those of its
+/// shards. InputError when a folder holds no dataset, or one of another mission than the first.
 JobStatus read_status(const std::vector<std::filesystem::path>& folders);
 
 struct MergeSummary {
@@ -39,10 +38,8 @@ struct MergeSummary {
 };
 
 /// Copies the pings of shards of one mission, or its variants, into one folder, which holds nothing
-/// or an unfinished merge of them. sonarsim render then renders there what is missing, and
-/// completes the dataset. The files that the mission reads are not needed; parts are only read.
-/// `progress` counts the datasets.
-///
+/// or an unfinished merge of them; sonarsim render then completes the dataset there. The files that
+/// the mission reads are not needed; parts are only read. `progress` counts the datasets.
 /// InputError when a part is not a dataset or not of the same mission, inputs, version and build as
 /// the first, lacks a file or has a symbolic link in place of one, and when `out` holds something
 /// else or another run writes there; std::system_error when the disk fails.
@@ -59,9 +56,8 @@ struct DatasetCheck {
 };
 
 /// Compares the files of a dataset, or of all variants of a mission, with SHA256SUMS and with the
-/// list in dataset.json. Writes nothing. `progress` gets the number of files that are done and of
-/// all files. InputError when the folder holds no dataset of this version of sonarsim, or a damaged
-/// SHA256SUMS; std::system_error when the disk fails.
+/// list in dataset.json. `progress` counts the files. InputError when the folder holds no dataset
+/// of this version of sonarsim, or a damaged SHA256SUMS; std::system_error when the disk fails.
 DatasetCheck verify_folder(const std::filesystem::path& folder, int threads,
                            const ProgressCallback& progress, const std::atomic<bool>& stop);
 

@@ -43,9 +43,8 @@ DatasetFile require_part(const std::filesystem::path& folder, const std::filesys
 bool is_unused(const std::filesystem::path& folder);
 
 /// The state of a folder, seen from the dataset that `description` (dataset.json) and `mission`
-/// (mission.resolved.yaml) stand for. InputError when it holds something else: other files, or a
-/// dataset of another mission, of other input files or of another version of the program; with
-/// `overwrite` any dataset will do, and the folder counts as fresh.
+/// (mission.resolved.yaml) stand for. InputError when it holds other files or a dataset that
+/// difference_between() tells apart; with `overwrite` a folder with any dataset counts as fresh.
 FolderState inspect_folder(const std::filesystem::path& folder, const Json& description,
                            const std::string& mission, bool overwrite = false);
 
@@ -53,17 +52,16 @@ FolderState inspect_folder(const std::filesystem::path& folder, const Json& desc
 /// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
 void protect_inputs(const Layout& layout, const Mission& mission);
 
-/// Removes the dataset in a folder: the folders of its sensors, with all that is in them, and the
-/// files of the dataset next to these. Nothing else is removed, and no link is followed. It is
-/// durable, so that a new dataset is never found with an old journal. The caller holds the lock of
-/// a whole run, which stays. InputError when a file that the mission reads would go.
+/// Removes the folders of the sensors of a dataset, with all that is in them, and the files of the
+/// dataset next to these; no link is followed. Durable: a new dataset is never found with an old
+/// journal. The caller holds the lock of a whole run. InputError for a file that the mission reads.
 void remove_dataset(const std::filesystem::path& folder, const Mission& mission);
 
 /// True if all files of a complete dataset are in the folder.
 bool has_files(const std::filesystem::path& folder, const DatasetFile& dataset);
 
-/// Creates a file durably, with all of its bytes at once. Returns false and writes nothing if the
-/// name is in use: of several processes one creates it. std::system_error when the disk refuses.
+/// Creates a file durably, with all of its bytes at once. False if the name is in use: of several
+/// processes one creates it. std::system_error when the disk refuses.
 bool create_once(const std::filesystem::path& path, const std::string& text);
 
 /// Makes dataset.json, which decides what the folder holds: of several runs one makes it, and the
@@ -73,15 +71,13 @@ FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles&
 /// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
 void write_common_files(const Layout& layout, const CommonFiles& files);
 
-/// Removes the temporary files that interrupted runs left in a folder, and in those in it that
-/// `description` (dataset.json) names. Nothing if there is no such folder. Nobody may be at work
-/// there.
+/// Removes the temporary files that interrupted runs left in a folder, if there is one, and in
+/// those in it that `description` (dataset.json) names. Nobody may be at work there.
 void remove_leftovers(const std::filesystem::path& folder,
                       const Json& description = Json::object());
 
 /// Removes what killed runs left in the folder of a complete dataset, or of variants: parts of the
-/// journal and, unless another run is at work there or the disk cannot be written to, temporary
-/// files. The caller holds no lock of the folder.
+/// journal and, where it can take the lock of the folder, temporary files.
 void tidy(const std::filesystem::path& folder, const Json& description);
 
 }  // namespace sonarsim

@@ -13,8 +13,7 @@
 
 namespace sonarsim {
 
-/// The content of a dataset by its journal. A ping is in the journal once all of its files are
-/// durable. The journal is a text with one entry a line:
+/// The pings of a dataset whose files are all durable. The journal has a line for each:
 ///
 ///     ping SENSOR POSE FIELD... one field for each of the sensor's writers: SIZE:SHA256 of the
 ///                               ping's file, size in bytes, or the hash of its record
@@ -30,9 +29,9 @@ JournalEntries read_journal(const std::filesystem::path& folder);
 /// Writes OUT/journal.txt: its bytes do not depend on the runs that made the dataset.
 void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
-/// The part of the journal that one run writes. A background thread makes a checkpoint every few
-/// seconds: it makes durable what has been written so far and then adds the lines of the pings that
-/// were finished before. A power cut costs only the pings since the last checkpoint.
+/// The part of the journal that one run writes. Every few seconds a background thread makes durable
+/// what has been written and then adds the lines of the pings that were finished before: a power
+/// cut costs only the pings since then.
 class Journal {
   public:
     /// Adds to the part of `lock`, which must outlive it.

@@ -18,6 +18,7 @@ namespace sonarsim {
 namespace {
 
 namespace fs = std::filesystem;
+
 /// InputError when a file of a part, or a folder on the way to it, is a link: the part may come
 /// from anybody, and what a link names may be private.
 void require_own(const fs::path& part, const fs::path& name) {

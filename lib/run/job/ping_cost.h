@@ -12,9 +12,9 @@ struct PingCost {
     double bytes = 0.0;    ///< its files and records, and its share of what all pings make
 };
 
-/// Renders a few pings of each sonar as the mission would, with its engine and its writers, and
-/// discards them. The costs are in the order of Mission::sensors. Adds to `set_up_s` the time to
-/// make the engine and the extra time of each sonar's first ping, which fills tables.
+/// The costs by Mission::sensors: renders a few pings with the mission's engine and writers. Adds
+/// to `set_up_s` the time to make the engine and the extra time of each first ping, which fills
+/// tables.
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
                                     const Layout& layout, double& set_up_s);
 

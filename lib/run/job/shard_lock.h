@@ -9,9 +9,8 @@ namespace sonarsim {
 /// other two runs exclude each other. If the file system has no locks, every lock is granted.
 class ShardLock {
   public:
-    /// Makes the folder and the part where there are none; a whole run is shard 0 of 1. InputError
-    /// when another run writes there, or when there cannot be such a folder; std::system_error when
-    /// the disk refuses.
+    /// Makes the folder and the part; a whole run is shard 0 of 1. InputError when another run
+    /// writes there, or there cannot be such a folder; std::system_error when the disk refuses.
     ShardLock(const std::filesystem::path& folder, int shard, int shards);
     /// Removes the part if it is still empty.
     ~ShardLock();

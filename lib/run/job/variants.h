@@ -31,13 +31,13 @@ std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::pa
 void require_same_variants(const std::filesystem::path& folder, const Json& json,
                            const std::filesystem::path& first);
 
-/// InputError when the output folder holds other files, a link or, unless with `overwrite`, other
-/// variants than those of `json`. It may hold fewer.
+/// InputError when the output folder holds other files, a link or, without `overwrite`, other
+/// variants than those of `json`; fewer are allowed.
 void inspect_variants(const std::filesystem::path& folder, const Json& json,
                       const Variants& variants, bool overwrite);
 
-/// Makes variants.json, or replaces one with fewer variants: of several runs one makes it.
-/// InputError when another one is there. The caller holds a lock on the folder.
+/// Makes variants.json, or replaces one with fewer variants; the caller holds a lock on the folder.
+/// InputError when another one is there.
 void claim_variants(const std::filesystem::path& folder, const Json& json);
 
 /// True if the folder holds a dataset that is complete.
@@ -46,8 +46,8 @@ bool is_complete(const std::filesystem::path& dataset);
 /// Called before a variant is rendered, with its assembly.
 using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;
 
-/// Renders the variants of a mission that are not finished, one after the other, each as run_job
-/// does. The summary holds the sums over all of them and the warnings about each, with its folder.
+/// Renders the variants of a mission that are not finished, one after the other, as run_job does.
+/// The summary holds the sums over all and the warnings about each, with its folder.
 RenderSummary run_variants(const Mission& mission, const Variants& variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop);

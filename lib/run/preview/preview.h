@@ -33,8 +33,7 @@ void outlined_label(Picture& picture, int x, int y, const std::string& text, Ali
 /// Copies a picture into another one, which must be large enough.
 void paste(Picture& picture, const Picture& part, int x, int y);
 
-/// The mapping of a plane to a tile: metres to pixels, with the same scale on both axes and margins
-/// for the numbers of the axes.
+/// The mapping of a plane to a tile with one scale, m to px, and margins for the numbers of axes.
 struct PlaneFrame {
     int left = 0;  ///< left edge of the plot, whose top is that of the tile, px
     int plot_width = 0;
@@ -54,8 +53,7 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
 /// Darkens the margins and writes the numbers of both axes there.
 void draw_axes(Picture& tile, const PlaneFrame& frame);
 
-/// The outline of a sonar's view: the end points of rays along its edge, on a surface or at the
-/// largest range.
+/// The ends of rays along the edge of a sonar's view, on a surface or at the largest range.
 struct BeamOutline {
     Eigen::Vector3d origin;             ///< position of the sonar, world
     std::vector<Eigen::Vector3d> ends;  ///< end points once around, world
@@ -100,8 +98,7 @@ struct ObjectBox {
 std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose);
 
 /// Draws the boxes in a plan of x and y, without those that fill most of it, and the names for
-/// which there is room, those of large objects first. Returns the boxes of the names in pixels,
-/// which do not overlap.
+/// which there is room, those of large objects first. Returns the boxes of the names, px.
 std::vector<Eigen::AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
                                               const std::vector<ObjectBox>& objects);
 
@@ -117,10 +114,9 @@ using RenderPing = std::function<Ping(std::uint32_t pose)>;
 /// The last pose at or before `pose` at which the sonar pings.
 std::uint32_t ping_at(const Sonar& sonar, std::uint32_t pose);
 
-/// Draws at most `width` by `height` pixels: the fan of an imaging or profiling sonar with rings
-/// and bearings, the display of a scanning sonar at that ping, the waterfall of a side-scan sonar
-/// or the echogram of an echosounder around the ping, with two marks at the ping. The brightness is
-/// derived from the shown pings.
+/// Draws at most `width` by `height` pixels: the fan of a sonar with images, with rings and
+/// bearings, the display of a scanning sonar, or the waterfall or echogram around the ping, with
+/// two marks at it. The brightness is derived from the shown pings.
 SonarPanel draw_sonar(const Sonar& sonar, std::uint32_t pose, std::size_t poses,
                       const RenderPing& render, int width, int height);
 
@@ -130,9 +126,8 @@ struct Preview {
     std::vector<BeamOutline> beams;
 };
 
-/// Draws one picture of a mission at a pose of its trajectory: each sonar's image, and a plan of
-/// scene, trajectory and footprints. `pose` must be less than the number of poses. Throws
-/// std::runtime_error when memory does not suffice.
+/// Draws each sonar's image at a pose of the trajectory, and a plan of scene, trajectory and
+/// footprints. std::runtime_error when memory does not suffice.
 Preview draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose);
 
 }  // namespace sonarsim

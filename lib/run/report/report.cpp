@@ -125,9 +125,8 @@ void measure_errors(const PingSet& pings, const std::vector<Reference>& referenc
     });
 }
 
-/// One sonar with one setting. Errors are without noise: means over the poses, and that of the
-/// worst pose. Times are with noise, medians over the poses, on one thread but for `pings_per_s`.
-/// The times of Embree alone, and of a ping as a multiple of it, are CPU times, measured in turns.
+/// One sonar with one setting. Errors are without noise: means over the poses, and the worst. Times
+/// are with noise, medians over the poses, on one thread (not `pings_per_s`); with rays CPU times.
 Json row_of(const std::string& sensor, const Setting& setting, const Trial& trial) {
     std::vector<double> times_rays;
     for (const PoseTimes& pose : trial.poses)

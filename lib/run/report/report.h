@@ -27,9 +27,8 @@ struct Setting {
 };
 
 /// The settings of a report: rays and strips by error goal and the octree by leaf size, each from
-/// coarse to fine, and `auto` at the mission's goal. Leaves finer than a quarter of the finest
-/// range bin are omitted: they cost much and improve nothing. The mission's own setting is included
-/// and marked.
+/// coarse to fine, `auto` at the mission's goal, and the mission's own, marked. Leaves finer than a
+/// quarter of the finest range bin are omitted: they cost much and improve nothing.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
 /// The error message of a mission with this setting, if the engine does not support the scene or a
@@ -64,16 +63,14 @@ Json make_report(const Mission& mission, const Assembly& assembly,
 /// bins and delta in {5, 15, 30} degrees; and `own`.
 std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
 
-/// Measures every sonar that has multipath with each of its multipath_settings(), with the engine
-/// and the error goal of the mission. The methods take turns. A row compares one to tracing every
-/// sample, by the multipath echoes only, without noise, over the bins of all poses together, since
-/// a single pose may fill only a few bins.
+/// Measures every sonar that has multipath with each of its multipath_settings() in turns, with the
+/// engine and the error goal of the mission. A row compares a method to tracing every sample, by
+/// the multipath echoes only, without noise, over the bins of all poses: one may fill only a few.
 std::vector<Json> measure_multipath(const Mission& mission, const Assembly& assembly,
                                     const ReportOptions& options, const ReportProgress& progress);
 
-/// Renders some pings of a mission into a temporary folder: the images per second on all threads
-/// and, on one thread, the set-up and the stages of an image. `ms_rays` is the time of the rays
-/// that an image is compared with.
+/// Renders some pings into a temporary folder: the images per second on all threads and, on one
+/// thread, the set-up and the stages of an image, which is compared with `ms_rays` of rays.
 Json measure_job(const Mission& mission, double ms_rays, const ReportOptions& options);
 
 std::string report_json(const Json& report);
@@ -87,8 +84,7 @@ double mean_of(const std::vector<double>& values);
 /// CPU time of this thread in seconds, which stays comparable on a busy machine.
 double thread_seconds_now();
 
-/// Number of rays for the time that pings are compared with: that of Embree alone over the same
-/// view of the same scene.
+/// Number of rays whose time pings are compared with: Embree alone over the same view.
 inline constexpr int view_rays_count = 131'072;
 
 /// `view_rays_count` unit directions in the sensor frame, evenly spread over a view: 512 columns of

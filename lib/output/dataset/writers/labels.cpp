@@ -13,10 +13,9 @@ namespace sonarsim {
 Writer objects_writer(const WriterContext& context);
 
 /// Adds the facts of the objects in the records of a sonar without images to the products of the
-/// writer of instance.npy. They are made of that, of object_shadow.npy, visible_share.npy and the
-/// echoes: NAME/objects.json for the picture of all pings (waterfall, echogram),
-/// NAME/objects_NNNN.json for the picture of each sweep. In the former an object has an entry for
-/// each side and each pass; after 32 pings that do not show it, it begins another pass.
+/// writer of instance.npy: objects.json for the picture of all pings (waterfall, echogram), or
+/// objects_NNNN.json for that of each sweep. In the former an object has an entry for each side and
+/// each pass; after 32 pings that do not show it, it begins another pass.
 void add_record_objects(const WriterContext& context, Writer& writer);
 
 namespace {
@@ -78,8 +77,7 @@ Ids shares(const PingLabels& labels) {
     return rounded;
 }
 
-/// The visible share of the object of each bin; 65535 is all of it, and 0 means that it is not
-/// known.
+/// The visible share of the object of each bin; 65535 is all of it, 0 that it is not known.
 Ids visible_shares(const PingLabels& labels) {
     Ids rounded(labels.facts().size());
     std::ranges::transform(labels.facts(), rounded.begin(), [&](std::uint16_t id) {
@@ -140,8 +138,7 @@ PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
     return numbers_of(sonar, rows_of_range(labels.*file.floats, labels), std::nanf(""));
 }
 
-/// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in
-/// NAME.npy.
+/// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record in NAME.npy.
 Writer label_writer(const WriterContext& context, const LabelFile& file) {
     PingOutput output;
     if (context.kind().has_images)

@@ -69,10 +69,9 @@ void write_raw_pictures(const WriterContext& context, const RecordFile& records,
 }  // namespace
 
 /// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
-/// For sonars without images raw.npy, in the shape of their other records. raw.png is the same as a
-/// picture; a scanning sonar has a picture [range, step] for each sweep, raw_0000.png and so on.
-/// Values of an instrument have no mean: where several pings share a row of the picture, it shows
-/// the first of them.
+/// For sonars without images raw.npy, in the shape of their other records, with the picture
+/// raw.png, or raw_NNNN.png [range, step] for each sweep. Values of an instrument have no mean:
+/// where several pings share a row of the picture, it shows the first of them.
 Writer make_raw_writer(const WriterContext& context) {
     const bool bytes = has_bytes(context.sonar());
     const auto numbers = [&sonar = context.sonar()](const FinishedPing& finished) {

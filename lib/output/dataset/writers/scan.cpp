@@ -32,9 +32,8 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
 
 }  // namespace
 
-/// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
-/// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
-/// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
+/// scan.npy: float32 [ping, range]. The display after each sweep of the head, and after the
+/// last, unfinished one: scan_NNNN.npy, float32 [range, step]; scan_NNNN.png, 8 bits, boresight up.
 Writer make_scan_writer(const WriterContext& context) {
     const std::string stem(context.kind().record.name);
     const auto map = context.assembly.fans->map(whole_scan(context.sonar()));

@@ -152,9 +152,8 @@ std::vector<double> sounding_fields(const WriterContext& context, const Finished
 
 }  // namespace
 
-/// soundings.npy: float64 [ping, beam, 5 + labels]: range, x, y, z, quality, and the instance and
-/// the class if they are labels; NaN without a sounding. soundings.csv and .ply hold the beams with
-/// a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
+/// soundings.npy: float64 [ping, beam, 5 + labels]: range, x, y, z, quality, instance and class if
+/// labels; NaN without a sounding. soundings.csv and .ply: the others; bathymetry.*: their map.
 Writer make_soundings_writer(const WriterContext& context) {
     const std::size_t beams = context.sonar().settings.view.beams;
     const std::vector<SoundingLabel> labels = labels_of(context.mission.output);
