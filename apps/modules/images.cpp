@@ -135,11 +135,6 @@ void read_pixels(ImageInput& input, const ImageSpec& spec, float* values) {
                              "gdal_translate -ot Float32");
 }
 
-bool is_whole(const ImageSpec& spec) {
-    const auto type = spec.format.basetype;
-    return type != TypeDesc::HALF && type != TypeDesc::FLOAT && type != TypeDesc::DOUBLE;
-}
-
 }  // namespace
 
 extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_3(const char* format,
@@ -160,7 +155,7 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_3(const char* 
         head.height = static_cast<std::uint64_t>(spec.height);
         head.channels = static_cast<std::uint32_t>(spec.nchannels);
         head.bits = static_cast<std::uint32_t>(8 * spec.format.size());
-        head.is_float = is_whole(spec) ? 0U : 1U;
+        head.is_float = spec.format.is_floating_point() ? 1U : 0U;
         float* const values = start(user, &head);
         if (values == nullptr) return;
         require_one_type(spec);

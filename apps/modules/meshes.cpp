@@ -1,13 +1,11 @@
 #include <assimp/BaseImporter.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
-#include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,36 +19,6 @@
 
 namespace {
 
-/// Bytes in memory as assimp reads a file.
-class BytesStream final : public Assimp::IOStream {
-  public:
-    explicit BytesStream(std::string_view bytes) : bytes_(bytes) {}
-
-    std::size_t Read(void* to, std::size_t size, std::size_t count) override {
-        if (size == 0) return 0;
-        const std::size_t whole = std::min(count, (bytes_.size() - at_) / size);
-        std::memcpy(to, bytes_.data() + at_, whole * size);
-        at_ += whole * size;
-        return whole;
-    }
-    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-        std::size_t from = 0;
-        if (origin == aiOrigin_CUR) from = at_;
-        if (origin == aiOrigin_END) from = bytes_.size();
-        if (offset > bytes_.size() - from) return aiReturn_FAILURE;
-        at_ = from + offset;
-        return aiReturn_SUCCESS;
-    }
-    std::size_t Tell() const override { return at_; }
-    std::size_t FileSize() const override { return bytes_.size(); }
-    void Flush() override {}
-
-  private:
-    std::string_view bytes_;
-    std::size_t at_ = 0;
-};
-
 /// The only file that assimp can open, so that no file can make it open another. An .mtl file is
 /// not needed: usemtl names the materials, and colours have no echo.
 class OneFile final : public Assimp::IOSystem {
@@ -60,7 +28,8 @@ class OneFile final : public Assimp::IOSystem {
     bool Exists(const char* name) const override { return name_ == name; }
     char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* name, const char*) override {
-        return Exists(name) ? new BytesStream(bytes_) : nullptr;
+        const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes_.data());
+        return Exists(name) ? new Assimp::MemoryIOStream(begin, bytes_.size()) : nullptr;
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <initializer_list>
 #include <memory>
 #include <string>
@@ -57,5 +58,13 @@ void add_python_tools(CLI::App& app);
 /// Becomes `python3 -m sonarsim.NAME ...`, with all further options, if the command line names a
 /// command of the Python package. InputError where Python or the package is missing.
 void become_python_tool(int argc, char** argv);
+
+/// The first Ctrl-C (SIGINT) or SIGTERM sets the returned flag. If the program has not ended a
+/// second later, as in a long ping, it writes `last_words` to stderr and exits with code 128 plus
+/// the signal's number. A second signal ends the program at once.
+std::atomic<bool>& stop_on_signal(std::string_view last_words);
+
+/// The exit code of a command that a signal has stopped.
+int exit_code_of_signal();
 
 }  // namespace sonarsim

@@ -1,13 +1,11 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "commands.h"
 #include "run/checks/warning.h"
 #include "run/job/dataset_folders.h"
-#include "signals.h"
 
 namespace sonarsim {
 
@@ -43,7 +41,7 @@ int merge(const MergeArguments& arguments) {
         spdlog::warn("{}", sentence(make_warning(WarningCode::no_locks, arguments.out().string())));
     if (summary.stopped) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
-        return exit_signal + signal_received();
+        return exit_code_of_signal();
     }
     const std::string made = made_text(summary.pings, summary.skipped, "copied");
     const std::string out = arguments.out().string();

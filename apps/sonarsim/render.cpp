@@ -16,7 +16,6 @@
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "run/job/variants.h"
-#include "signals.h"
 
 namespace sonarsim {
 
@@ -220,7 +219,7 @@ int render(const RenderArguments& given) {
     }
     if (!summary.stopped) return arguments.strict && !warnings.empty() ? exit_warned : exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
-    return exit_signal + signal_received();
+    return exit_code_of_signal();
 }
 
 }  // namespace

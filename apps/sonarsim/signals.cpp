@@ -1,5 +1,3 @@
-#include "signals.h"
-
 #include <unistd.h>
 
 #include <array>
@@ -51,8 +49,8 @@ std::atomic<bool>& stop_on_signal(std::string_view last_words) {
     return stop_requested;
 }
 
-int signal_received() {
-    return received;
+int exit_code_of_signal() {
+    return exit_signal + received;
 }
 
 }  // namespace sonarsim

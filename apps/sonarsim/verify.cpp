@@ -5,7 +5,6 @@
 #include "commands.h"
 #include "mission_options.h"
 #include "run/job/dataset_folders.h"
-#include "signals.h"
 
 namespace sonarsim {
 
@@ -41,7 +40,7 @@ int verify(const VerifyArguments& arguments) {
         spdlog::error("{}", error);
     if (check.stopped) {
         spdlog::warn("stopped after {} files; nothing was changed", check.files);
-        return exit_signal + signal_received();
+        return exit_code_of_signal();
     }
     if (arguments.log.json) print_result(check);
     if (!check.errors.empty()) return exit_failed;

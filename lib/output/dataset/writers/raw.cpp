@@ -85,10 +85,8 @@ Writer make_raw_writer(const WriterContext& context) {
         writer.products = sweep_files(context, "raw", {".png"});
     else
         writer.products = {"raw.png"};
-    writer.write_products = [=](const RecordFile& records, const std::filesystem::path& folder) {
-        bytes ? write_raw_pictures<std::uint8_t>(context, records, folder)
-              : write_raw_pictures<std::uint16_t>(context, records, folder);
-    };
+    writer.write_products = std::bind_front(
+        bytes ? write_raw_pictures<std::uint8_t> : write_raw_pictures<std::uint16_t>, context);
     return writer;
 }
 

@@ -8,8 +8,8 @@ namespace sonarsim {
 
 namespace {
 
-void write_displays(const WriterContext& context, const FanMap& map, const RecordFile& records,
-                    const std::filesystem::path& folder) {
+void write_displays(const WriterContext& context, const std::shared_ptr<const FanMap>& map,
+                    const RecordFile& records, const std::filesystem::path& folder) {
     const std::string stem(context.kind().record.name);
     std::vector<float> bins(context.sonar().config.range_bins);
     ScanDisplay display(context.sonar());
@@ -24,9 +24,9 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
             write_file(folder / scan_file_name(stem, sweep, ".npy"),
                        npy_bytes(image.intensity, image.range_bins, image.beams));
             write_file(folder / scan_file_name(stem, sweep, ".png"),
-                       png_bytes(display_fan(map, *context.sonar().settings.model, image,
+                       png_bytes(display_fan(*map, *context.sonar().settings.model, image,
                                              context.full_scale()),
-                                 map.frame.width, map.frame.height));
+                                 map->frame.width, map->frame.height));
         });
 }
 
@@ -52,10 +52,7 @@ Writer make_scan_writer(const WriterContext& context) {
     return {.per_ping = record_of_kind(context, stem, "<f4"),
             .products = sweep_files(context, stem, {".npy", ".png"}),
             .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
-            .write_products =
-                [=](const RecordFile& records, const std::filesystem::path& folder) {
-                    write_displays(context, *map, records, folder);
-                },
+            .write_products = std::bind_front(write_displays, context, map),
             .describe = describe};
 }
 

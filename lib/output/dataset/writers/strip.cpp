@@ -65,8 +65,8 @@ StripFrame frame_of(const WriterContext& context) {
     return context.kind().record.style.frame(context.sonar().config, picture_rows(context.pings));
 }
 
-void write_pictures(const WriterContext& context, const RecordFile& file,
-                    const std::filesystem::path& folder) {
+void write_strip_products(const WriterContext& context, const RecordFile& file,
+                          const std::filesystem::path& folder) {
     const RecordShape& shape = context.kind().record;
     AveragedRows records(file);
     const double white = records.white();
@@ -94,6 +94,7 @@ void write_pictures(const WriterContext& context, const RecordFile& file,
         [&](std::size_t k) -> const std::vector<float>& { return records.row(k); }, draw);
     plain.finish();
     view.finish();
+    if (shape.two_sides) write_swath_files(context, file, folder);
 }
 
 void describe_strip(const WriterContext& context, Json& sensor) {
@@ -130,12 +131,8 @@ Writer make_strip_writer(const WriterContext& context) {
             [&shape, &config](const FinishedPing& finished) {
                 return record_bytes(record_values(shape, config, finished.ping.intensity, 0.0F));
             },
-        .write_products =
-            [context](const RecordFile& file, const std::filesystem::path& folder) {
-                write_pictures(context, file, folder);
-                if (context.kind().record.two_sides) write_swath_files(context, file, folder);
-            },
-        .describe = [context](Json& s) { describe_strip(context, s); }};
+        .write_products = std::bind_front(write_strip_products, context),
+        .describe = std::bind_front(describe_strip, context)};
 }
 
 }  // namespace sonarsim
