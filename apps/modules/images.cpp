@@ -37,8 +37,7 @@ std::unique_ptr<ImageInput> open_image(const char* format, const char* file, Ima
     return input;
 }
 
-/// All channels are read as numbers of one type. To convert whole numbers, OpenImageIO would scale
-/// them to 0 to 1.
+/// All channels are read as one type: to convert whole numbers, OpenImageIO would scale them.
 void require_one_type(const ImageSpec& spec) {
     for (const TypeDesc& format : spec.channelformats) {
         const bool is_half = format == TypeDesc::HALF && spec.format == TypeDesc::FLOAT;
@@ -51,8 +50,7 @@ void require_one_type(const ImageSpec& spec) {
 
 /// OpenImageIO scales the numbers of a grey PNG of few bits to 8 bits.
 void require_whole_bytes(const char* file) {
-    // 16 bytes of signature and of the head's length and name, 8 of width and height, then the bits
-    // of a number and the kind of colours.
+    // Signature, length and name of the head, width, height; then bits of a number, and colours.
     std::array<char, 26> start{};
     std::ifstream(file, std::ios::binary).read(start.data(), start.size());
     constexpr char grey = 0;
@@ -69,8 +67,7 @@ std::uint32_t read_number(std::istream& in) {
     return number;
 }
 
-/// The length of a text that ends with a zero. A longer one than the format allows fails the
-/// stream.
+/// The length of a text that ends with a zero. One beyond the format's limit fails the stream.
 std::streamsize skip_text(std::istream& in) {
     char text[257];
     in.getline(text, std::size(text), '\0');
@@ -107,8 +104,7 @@ void check_exr_header(const char* file) {
     if (!in) throw std::runtime_error("its header is damaged: copy or export it again");
 }
 
-/// Reads the pixels if they are of `type`, that of T, or half where it is FLOAT. Returns false if
-/// they are of another.
+/// Reads the pixels if they are of `type`, that of T, or half where it is FLOAT; else false.
 template <class T, TypeDesc::BASETYPE type>
 bool read_values(ImageInput& input, const ImageSpec& spec, float* values) {
     const bool is_half = type == TypeDesc::FLOAT && spec.format.basetype == TypeDesc::HALF;

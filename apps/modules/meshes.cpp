@@ -14,8 +14,7 @@
 #include "guarded.h"
 #include "input/scene/meshes/module.h"
 
-// OBJ, STL and PLY through libassimp. Only triangulation is asked for: whatever else assimp offers
-// joins, sorts or moves vertices.
+// OBJ, STL and PLY through libassimp. All steps but triangulation join, sort or move vertices.
 
 namespace {
 

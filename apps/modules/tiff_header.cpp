@@ -85,8 +85,7 @@ void require_numbers(TIFF* tiff) {
 
 /// A key of GeoTIFF whose value is a short; 0 if the file lacks it.
 int geo_key(const Values<std::uint16_t>& words, int key) {
-    // A header of four numbers, then for each key its number, the tag of its value (0: this one), a
-    // count and the value.
+    // Four numbers; then for each key its number, the tag of its value (0: this), count and value.
     for (std::uint32_t i = 4; i + 3 < words.count; i += 4) {
         if (words.data[i] == key && words.data[i + 1] == 0) return words.data[i + 3];
     }
@@ -163,8 +162,7 @@ void read_no_data(TIFF* tiff, SonarsimImageHead& head) {
 }  // namespace
 
 void read_tiff_header(const char* file, SonarsimImageHead& head) {
-    // OpenImageIO sets handlers of its own. Errors are returned, and warnings are about tags that
-    // nobody reads.
+    // OpenImageIO sets handlers of its own. Errors are returned; warnings are about unused tags.
     const TIFFErrorHandler errors = TIFFSetErrorHandler(nullptr);
     const TIFFErrorHandler warnings = TIFFSetWarningHandler(nullptr);
     const std::unique_ptr<TIFF, Closer> tiff(TIFFOpen(file, "r"));

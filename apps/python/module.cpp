@@ -1,5 +1,4 @@
-// The compiled part of the Python package: a mission and its pings. sonarsim/__init__.py is what
-// users see, and checks their arguments.
+// The compiled part of the package. sonarsim/__init__.py is what users see, and checks arguments.
 #include <malloc.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -35,8 +34,7 @@ struct SharedModels {
     SceneStore files;
 };
 
-/// A mission whose files are read when they are first needed. Its functions may be called by any
-/// thread and hold no interpreter lock.
+/// A mission whose files are read when first needed, by any thread, without the interpreter lock.
 class LoadedMission {
   public:
     LoadedMission(Mission mission, MissionSource source, std::shared_ptr<SharedModels> models)

@@ -51,8 +51,7 @@ class TextFormatter : public spdlog::formatter {
     spdlog::pattern_formatter line_;
 };
 
-/// Adds what a message begins with as fields: the number of a warning, "W12 ", and the place,
-/// "file:line:column: ".
+/// Adds fields for the start of a message: the number of a warning, and "file:line:column: ".
 void add_fields(Json& line, std::string_view message) {
     static const std::regex code("(W[0-9]{2,3}) ");
     static const std::regex place("([^:\\s][^:]*):([0-9]{1,9})(:([0-9]{1,9}))?: ");

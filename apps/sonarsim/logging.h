@@ -18,8 +18,7 @@ struct LogOptions {
     bool quiet = false;  ///< warnings and errors only
     bool json = false;   ///< one JSON object per line
 
-    /// True if the command prints its result. --quiet suppresses text for people; a user of --json
-    /// needs the result.
+    /// --quiet suppresses text for people; a user of --json needs the result.
     bool prints_result() const { return json || !quiet; }
 };
 

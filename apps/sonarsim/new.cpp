@@ -60,10 +60,9 @@ CsvTable known_materials() {
     return read_csv(file, largest_table);
 }
 
-/// Rows for the materials of a mesh and for the others that are named, `beds`, from the table
-/// scenes/materials.csv of the program: that of the same name, else that of the longest word in
-/// it ("Hull_wood.001": wood), else that of steel, or of sand for a bed. InputError when the table
-/// is missing.
+/// Rows for the materials of a mesh and those of `beds`, from the program's scenes/materials.csv:
+/// by the same name, else by the longest word in it ("Hull_wood.001": wood), else steel, or sand
+/// for a bed. InputError when the table is missing.
 GuessedMaterials guess_materials(const Scene& mesh, const std::vector<std::string>& beds) {
     const CsvTable table = known_materials();
     GuessedMaterials out{listed(table.header.fields, ",") + "\n", {}, ""};

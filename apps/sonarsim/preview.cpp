@@ -34,8 +34,7 @@ Mission load_one(const MissionOptions& options) {
 
 int preview(const PreviewArguments& arguments) {
     Mission mission = load_one(arguments.mission);
-    // A preview derives its brightness from its own pings, since finding the dataset's full_scale
-    // takes longer than the whole preview.
+    // The brightness is that of the preview's own pings: to find the dataset's takes too long.
     mission.output.full_scale = 1.0;
     const Assembly assembly = assemble(mission);
     log_warnings(reading_warnings(assembly.scene));

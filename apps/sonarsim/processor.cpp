@@ -4,8 +4,7 @@
 
 #include "exit_codes.h"
 
-// Only this file is compiled for every x86-64 processor (CMakeLists.txt). It runs before the rest
-// of the program.
+// Runs first; only this file is compiled for every x86-64 processor (CMakeLists.txt).
 
 namespace {
 

@@ -41,8 +41,7 @@ std::string environment(const char* name, const std::string& fallback) {
     return value != nullptr && *value != '\0' ? value : fallback;
 }
 
-/// The folder that holds the package: beside the program of a build tree, or below the prefix of an
-/// installed one.
+/// The folder of the package: beside the program of a build tree, or below an installed prefix.
 std::filesystem::path package_folder() {
     const std::filesystem::path beside =
         std::filesystem::read_symlink("/proc/self/exe").parent_path();

@@ -96,8 +96,7 @@ void print_json(const RenderSummary& summary, const Mission& mission,
     fmt::print("{}\n", json_line(json));
 }
 
-/// Logs the counts of dropped echoes and the reasons. A usual run has many; warnings report those
-/// that matter.
+/// Logs dropped echoes by reason. A usual run has many; warnings report those that matter.
 void log_dropped(const PingCounts& counts) {
     for (const auto& counter : ping_counters) {
         const std::uint64_t count = counts.*counter.member;

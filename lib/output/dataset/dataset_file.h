@@ -11,8 +11,7 @@
 
 namespace sonarsim {
 
-/// A sensor as dataset.json describes it. Paths are relative to the folder of the dataset and lie
-/// in the folder of the sensor.
+/// A sensor in dataset.json. Paths start at the folder of the dataset and lie in the sensor's own.
 struct DescribedSensor {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
@@ -31,16 +30,14 @@ struct DatasetFile {  // NOLINT(bugprone-exception-escape): moving JSON throws n
     std::vector<std::string> products;  ///< products of all sensors together
 };
 
-/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than 256 MiB, is
-/// not JSON or is nested more than 64 deep.
+/// The JSON of a file. InputError if unreadable, above 256 MiB, no JSON or nested above 64 deep.
 Json read_json(const std::filesystem::path& path);
 
 /// As it is, keys not checked; nothing if it is not sonarsim's. InputError if it cannot be read.
 std::optional<Json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of dataset.json; `file` is for the messages. InputError for another version of
-/// the format, a key that is missing or of another type, or a path outside the folder of its
-/// sensor.
+/// The one reader of dataset.json; `file` is for the messages. InputError for another version, a
+/// key that is missing or of another type, or a path outside the folder of its sensor.
 DatasetFile parse_description(Json json, const std::string& file);
 
 /// The dataset.json of a folder that must hold a dataset: else InputError.
@@ -48,9 +45,8 @@ DatasetFile require_dataset(const std::filesystem::path& folder);
 
 inline constexpr const char* another_mission = "of another mission";
 
-/// The difference between two descriptions, whose keys need not be checked, as the end of a
-/// sentence about "a dataset": "of another mission". Empty if both are the same dataset, complete
-/// or not.
+/// The difference between two descriptions, keys not checked, as the end of a sentence about "a
+/// dataset": "of another mission". Empty if both are the same dataset, complete or not.
 std::string difference_between(const Json& found, const Json& expected);
 
 /// "fls/polar/%06d.npy" with the number of a ping's pose in it.

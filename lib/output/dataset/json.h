@@ -44,10 +44,9 @@ std::string json_text(const Json& json);
 /// JSON on one line, without a line feed.
 std::string json_line(const Json& json);
 
-/// Encodes the runs of a mask as the text that COCO's tools call compressed RLE. Each number is
-/// written in groups of five bits, the lowest first, as characters from '0' on; the sixth bit says
-/// that more groups follow. From the fourth number on, the difference from the number two places
-/// before is written.
+/// Encodes the runs of a mask as COCO's compressed RLE: each number in groups of five bits, the
+/// lowest first, as characters from '0' on; the sixth bit says that more groups follow. From the
+/// fourth number on, the difference from the number two places before is written.
 std::string coco_counts(std::span<const std::uint32_t> runs);
 
 /// The file of the objects in a picture, a line each; `head` says which picture it is.

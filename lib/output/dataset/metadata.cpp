@@ -56,8 +56,7 @@ void describe_ping_file(const PingFile& file, const SensorLayout& own, const std
     if (!file.ids.empty()) array["ids"] = file.ids;
 }
 
-/// The names of the ids of labels, with the world boxes (m) of instances that stand still, and the
-/// classes that are background.
+/// The names of the ids of labels, world boxes (m) of still instances, and background classes.
 Json describe_label_ids(const Assembly& assembly) {
     const SceneObjects& objects = assembly.objects;
     const std::vector<Eigen::AlignedBox3d> boxes = object_boxes(assembly);

@@ -23,8 +23,7 @@ Json describe_build();
 /// SHA-256 of what it read in comments. The same wherever mission and dataset lie.
 std::string resolved_text(const Mission& mission, const Assembly& assembly);
 
-/// 32 hexadecimal digits that differ when a file that the mission names, the scene's surface or the
-/// poses differ.
+/// 32 hexadecimal digits that differ when an input file, the scene's surface or the poses differ.
 std::string inputs_hash(const Assembly& assembly);
 
 }  // namespace sonarsim

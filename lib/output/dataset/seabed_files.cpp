@@ -12,8 +12,7 @@ namespace {
 
 /// World z of the cells: a GeoTIFF in the mission's x and y, which scene.heightmap reads.
 constexpr const char* seabed_heights_name = "seabed/heights.tif";
-/// The material of each cell, a grey PNG of 8 bits with the index of the material, and its world
-/// file.
+/// The index of the material of each cell, a grey PNG of 8 bits, and its world file.
 constexpr const char* seabed_materials_name = "seabed/materials.png";
 constexpr const char* seabed_place_name = "seabed/materials.pgw";
 /// The place of these maps, the materials, and all rocks.

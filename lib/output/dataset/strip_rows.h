@@ -21,9 +21,8 @@ inline int picture_rows(std::size_t pings) {
     return static_cast<int>((pings + each - 1) / each);
 }
 
-/// Visits the rows of a strip from the top: a ping or, if upright, one of the values over all
-/// pings. `read` returns the values of ping k, again for every block of upright rows that fits into
-/// memory.
+/// Visits the rows of a strip from the top: a ping or, if upright, a value over all pings. `read`
+/// returns the values of ping k, again for every block of upright rows that fits into memory.
 template <class T, class Read, class Visit>
 void for_each_strip_row(std::size_t pings, std::size_t values, bool upright, const Read& read,
                         const Visit& visit) {

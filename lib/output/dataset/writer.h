@@ -77,9 +77,8 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string ids = {};    ///< as in PingFile
 };
 
-// Labels of records that only objects need: the shadow of the objects that are not background, the
-// visible share of the object of a bin (65535: all), and without `labels.mask: echo` its
-// silhouette.
+// Labels of records that only objects need: the shadow of objects that are not background, the
+// visible share of a bin's object (65535: all), and, without `mask: echo`, its silhouette.
 inline constexpr const char* object_shadow_record = "object_shadow";
 inline constexpr const char* visible_share_record = "visible_share";
 inline constexpr const char* silhouette_record = "silhouette";
@@ -120,9 +119,8 @@ inline std::string record_bytes(const PingNumbers& numbers) {
     return std::visit([](const auto& values) { return record_bytes(values); }, numbers.values);
 }
 
-/// One output format of one sensor. Its functions may be called by any number of threads at a time,
-/// and the context must outlive it. A resumed run finds finished pings by the sizes and hashes in
-/// the journal.
+/// One output format of one sensor, for any number of threads; the context must outlive it. A
+/// resumed run finds finished pings by the sizes and hashes in the journal.
 struct Writer {
     PingOutput per_ping;
     /// Files that are made of the records of all pings.

@@ -32,8 +32,7 @@ bool has_raw(const WriterContext& context) {
     return context.mission.output.raw && context.sonar().settings.model->info.raw_bits > 0;
 }
 
-/// InputError when the mission lists the label `fan` and writes no fan. `true` asks only for the
-/// labels that there can be.
+/// InputError for the label `fan` without a fan. `true` asks only for labels that there can be.
 void check_fan_label(const Mission& mission) {
     const bool all = mission.output.labels.size() == static_cast<std::size_t>(Label::fan) + 1;
     const bool has_fans =

@@ -30,8 +30,7 @@ struct BitCode {
     int bits = 0;
 };
 
-/// The depth of each symbol in the Huffman tree of its counts, of which two are not 0; 0 if it does
-/// not occur.
+/// The depth of each symbol in the Huffman tree of its counts, of which two are not 0; 0: unused.
 std::vector<std::uint8_t> tree_depths(std::span<const std::uint32_t> counts) {
     using Node = std::pair<std::uint64_t, std::size_t>;  // count and number
     std::priority_queue<Node, std::vector<Node>, std::greater<>> nodes;
@@ -135,8 +134,7 @@ const std::uint8_t* find_run(const std::uint8_t* at, const std::uint8_t* end, st
     return end;
 }
 
-/// Calls visit(literals, run) for each stretch of single bytes and the length of the run after it;
-/// the last stretch may have no run.
+/// Calls visit(literals, run) for single bytes and the length of the run after them, 0 at the end.
 template <class Visit>
 void for_each_stretch(Bytes bytes, std::ptrdiff_t back, const Visit& visit) {
     const std::uint8_t* at = bytes.data();
@@ -152,8 +150,7 @@ void for_each_stretch(Bytes bytes, std::ptrdiff_t back, const Visit& visit) {
     }
 }
 
-/// Writes the code lengths of a block (RFC 1951, 3.2.7), each length of 0 to 15 in a code of four
-/// bits.
+/// Writes the code lengths of a block (RFC 1951, 3.2.7), each of 0 to 15 in a code of four bits.
 void put_lengths(BitCursor& to, const std::vector<std::uint8_t>& lengths, int distances) {
     constexpr std::array<std::uint32_t, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};

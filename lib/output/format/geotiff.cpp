@@ -20,8 +20,7 @@ std::string bytes_of(const T& value) {
     return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-/// The header of a TIFF file, with tags in ascending order. Values that do not fit into the 12
-/// bytes of a tag follow after the last tag.
+/// The header of a TIFF, tags ascending. Values beyond a tag's 12 bytes follow the last tag.
 class TiffHeader {
   public:
     explicit TiffHeader(std::uint16_t tags)

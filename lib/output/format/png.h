@@ -37,14 +37,12 @@ class ZlibPacker {
     std::uint32_t adler_ = 1;
 };
 
-/// Makes a PNG file (www.w3.org/TR/png) of rows that come one by one. The bytes depend on the
-/// pixels alone.
+/// Makes a PNG file (www.w3.org/TR/png) of rows one by one. Its bytes depend on the pixels alone.
 class PngEncoder {
   public:
     PngEncoder(int width, int height, PixelKind kind, PngFilter filter);
 
-    /// Adds the next row of std::uint8_t, std::uint16_t or Rgb. std::logic_error if its length is
-    /// not the width.
+    /// Adds a row of std::uint8_t, std::uint16_t or Rgb. std::logic_error if its length is wrong.
     template <class Pixel>
     void row(std::span<const Pixel> pixels) {
         add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});

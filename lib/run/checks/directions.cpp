@@ -21,8 +21,7 @@ double part_centre(double whole, int i, int n) {
 
 std::vector<Eigen::Vector3f> look_around(const View& view) {
     std::vector<Eigen::Vector3f> out;
-    // Equal steps of height are equal areas of the sphere; the golden angle spreads them in
-    // azimuth.
+    // Equal steps of height are equal areas; the golden angle spreads them in azimuth.
     const double golden = pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < all_around; ++i)
         out.push_back(

@@ -150,8 +150,7 @@ std::vector<Warning> reading_warnings(const Scene& scene) {
     const auto left_out = [&](std::uint64_t count, const char* what) {
         if (count > 0) add(fmt::format("the scene has {} {}; they are left out", count, what));
     };
-    // Many meshes have a few triangles without area, at the poles of spheres and where parts meet.
-    // Leaving them out changes nothing.
+    // Many meshes have a few triangles without area, as at poles; leaving them out changes nothing.
     if (scene.rejects.degenerate_triangles > triangles_of(scene))
         left_out(scene.rejects.degenerate_triangles, "triangles without area, most of all");
     left_out(scene.rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");

@@ -23,8 +23,7 @@ std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembl
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
-/// Warnings about a sonar in a survey: blind pings, echoes below the noise, white or black
-/// pictures.
+/// Warnings about a sonar in a survey: blind pings, echoes below the noise, white or black images.
 std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
                                     double full_scale, const SonarSurvey& found);
 

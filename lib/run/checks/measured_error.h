@@ -47,8 +47,7 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const Assembly& assembly,
                                                          const VisibilityEngine& engine);
 
-/// For dataset.json: the mean, the worst and every ping with the noise of its reference; null where
-/// there is no measurement.
+/// For dataset.json: mean, worst, and every ping with the noise of its reference; null: unknown.
 Json json_of(const std::optional<MeasuredError>& error);
 
 /// A warning for each sonar with a measured error above the mission's goal, with the key to change.

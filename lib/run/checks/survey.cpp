@@ -98,8 +98,7 @@ bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
 }
 
-/// True if the scene's surface faces upwards, as a sea floor does. The upward and downward parts of
-/// a closed body cancel.
+/// True if the surface faces upwards, as a sea floor: both sides of a closed body cancel.
 bool faces_up(const Scene& scene) {
     double up = 0.0;
     double either = 0.0;
@@ -158,8 +157,7 @@ void check_position(const Scene& scene, bool open_upwards,
     out.enclosed_by = scene.instances[instance];
 }
 
-/// True if a direction in view meets nothing and yet reaches below the whole scene within the
-/// range: it passes the end of the bottom.
+/// True if a direction in view meets nothing and gets below the scene in range: past the edge.
 bool passes_edge(const View& view, const Scene& scene, const Pose& T_world_sensor,
                  const Surroundings& around) {
     for (const Look& look : around) {
@@ -172,8 +170,7 @@ bool passes_edge(const View& view, const Scene& scene, const Pose& T_world_senso
     return false;
 }
 
-/// Adds the surface and the objects that a ping saw, and the range of its first and last echo.
-/// Returns false if it saw nothing.
+/// Adds surface, objects, and the range of the first and last echo of a ping; false without any.
 bool take_samples(const View& view, const Samples& samples, const SceneObjects& objects,
                   SonarSurvey& out) {
     ValueRange echoes;

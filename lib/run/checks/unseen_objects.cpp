@@ -111,8 +111,7 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
     return poses;
 }
 
-/// True if a sonar sees the instance in one of a few of `poses`, which begin with those that look
-/// straight at it.
+/// True if a sonar sees the instance in a few of `poses`, sorted by the angle off the view.
 bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
           const std::vector<PoseInView>& poses, std::uint32_t instance,
           const VisibilityEngine& rays) {

@@ -160,8 +160,7 @@ FolderState inspect_folder(const fs::path& folder, const Json& description,
                            const std::string& mission, bool overwrite) {
     if (!fs::exists(folder)) return FolderState::fresh;
     if (!fs::is_directory(folder)) throw InputError({folder.string()}, "is not a folder");
-    // Another shard may be starting. It writes dataset.json before anything else, so look for other
-    // files first and for dataset.json second.
+    // Another shard may be starting, which writes dataset.json first: look for it last.
     const bool unused = is_unused(folder);
     if (!fs::exists(folder / description_name)) {
         if (unused) return FolderState::fresh;

@@ -22,16 +22,14 @@ namespace sonarsim {
 /// before it, so that a line that a power cut tore does not count.
 using JournalEntries = std::map<PingId, std::string>;  ///< the fields with a blank between them
 
-/// Reads OUT/journal.txt and all parts in OUT/journal.d/. Torn lines are left out. InputError when
-/// a part cannot be read.
+/// Reads OUT/journal.txt and all of OUT/journal.d/ but torn lines. InputError for unreadable parts.
 JournalEntries read_journal(const std::filesystem::path& folder);
 
 /// Writes OUT/journal.txt: its bytes do not depend on the runs that made the dataset.
 void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
-/// The part of the journal that one run writes. Every few seconds a background thread makes durable
-/// what has been written and then adds the lines of the pings that were finished before: a power
-/// cut costs only the pings since then.
+/// The part of the journal that one run writes. Every few seconds a background thread makes files
+/// durable and then adds the lines of their pings: a power cut costs only the pings since then.
 class Journal {
   public:
     /// Adds to the part of `lock`, which must outlive it.

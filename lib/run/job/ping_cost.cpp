@@ -18,8 +18,7 @@ namespace sonarsim {
 
 namespace {
 
-// Pings that are measured, after the first. The ping of a sonar without images is small, and its
-// products are pictures of many pings.
+// Pings measured after the first: those of records are small, and made into pictures of many.
 constexpr std::size_t measured_images = 2;
 constexpr std::size_t measured_records = 8;
 
@@ -43,9 +42,8 @@ double ratio(std::size_t a, std::size_t b) {
     return static_cast<double>(a) / static_cast<double>(b);
 }
 
-/// The bytes of the products of all pings of a sonar: those of some pings, whose records are these
-/// in turn, made in a temporary folder. `all`: the writers of all pings. `records`: by writer
-/// and ping.
+/// The bytes of the products of all pings of a sonar: made in a temporary folder of some pings with
+/// these records in turn. `all`: the writers of all pings. `records`: by writer and ping.
 double product_bytes(const WriterContext& context, const Writers& all,
                      const std::vector<Records>& records) {
     if (std::ranges::none_of(all, [](const Writer& one) { return bool(one.write_products); }))

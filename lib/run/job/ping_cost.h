@@ -13,8 +13,7 @@ struct PingCost {
 };
 
 /// The costs by Mission::sensors: renders a few pings with the mission's engine and writers. Adds
-/// to `set_up_s` the time to make the engine and the extra time of each first ping, which fills
-/// tables.
+/// to `set_up_s` the time to make the engine and the extra time of each first ping (tables).
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
                                     const Layout& layout, double& set_up_s);
 

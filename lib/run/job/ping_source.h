@@ -23,8 +23,7 @@ struct PingInMemory {
     std::string metadata;  ///< meta/NNNNNN.json
 };
 
-/// The pings of a mission without files. They equal those of run_job(), and do not depend on which
-/// other pings are requested.
+/// The pings of a mission without files: those of run_job(), whichever pings are requested.
 class PingSource {
   public:
     /// `assembled` is that of the mission, which must outlive it.
@@ -32,8 +31,7 @@ class PingSource {
     PingSource(const PingSource&) = delete;
     PingSource& operator=(const PingSource&) = delete;
 
-    /// Any number of threads may call it at a time. The id must be one of list_pings().
-    /// std::runtime_error as brightest_pixel().
+    /// For any thread; the id is one of list_pings(). std::runtime_error as brightest_pixel().
     PingInMemory ping(const PingId& id) const;
 
     /// dataset.json of the dataset that run_job() would begin. InputError as make_writers().

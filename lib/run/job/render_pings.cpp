@@ -53,8 +53,7 @@ struct PingReport {
     std::string fields;     ///< for the journal
 };
 
-/// Renders a ping, hands it to the writers of its sensor, and their output to the disk. Without a
-/// destination, only labels are made of it.
+/// Renders, encodes and writes a ping. Without a destination only its labels are made.
 PingReport run_ping(const RenderRun& run, const VisibilityEngine& engine, const LabelPlan& plan,
                     const PingId& id, const Destination* to) {
     const RenderedPing rendered = render_at_pose(run.mission, run.assembly, engine, id);

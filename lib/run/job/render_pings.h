@@ -89,8 +89,7 @@ struct Destination {
     Journal& journal;
 };
 
-/// Renders `todo`, several pings at a time. Without a destination nothing is written, but labels
-/// are found.
+/// Renders `todo`, several pings at a time; without a destination only with their labels.
 void render_pings(const RenderRun& run, const VisibilityEngine& engine,
                   const std::vector<PingId>& todo, const Destination* to);
 

@@ -25,9 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* error_key = "measured_error";
 
-/// Adds the measured error of the sonars to dataset.json: that of the folder's dataset.json, else
-/// it is measured, which gives the same values in every shard. The first of several variants stands
-/// for all.
+/// Adds the measured error of the sonars to dataset.json: that of the folder's, else measured, with
+/// the same values in every shard. The first of several variants stands for all.
 void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
                         const fs::path& folder, Json& description) {
     if (run.mission.variant.index > 0) return;
@@ -71,8 +70,7 @@ std::map<std::string, std::string> ping_sums(const Layout& layout, const Journal
     return sums;
 }
 
-/// SHA256SUMS for `sha256sum -c` in OUT: every file of the dataset but this one. dataset.json is to
-/// be `text`, which is written afterwards.
+/// SHA256SUMS for `sha256sum -c`: every other file; dataset.json is to be `text`, written later.
 std::string checksums(const Layout& layout, const JournalEntries& entries,
                       const DatasetFile& dataset, const std::string& text) {
     std::map<std::string, std::string> known = ping_sums(layout, entries);

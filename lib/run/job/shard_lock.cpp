@@ -23,8 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes a lock: 0, EWOULDBLOCK where another run holds it, or another error where the file system
-/// has no locks (ENOLCK, EOPNOTSUPP).
+/// 0, EWOULDBLOCK where another run has the lock, or an error without locks (ENOLCK, EOPNOTSUPP).
 int lock_now(int fd, int mode) {
     int result = 0;
     do {
@@ -38,8 +37,7 @@ bool is_locked(const fs::path& part) {
     return file.get() >= 0 && lock_now(file.get(), LOCK_SH) == EWOULDBLOCK;
 }
 
-/// True if a run that is not of the same division in `shards` writes into the folder;
-/// `own` is the part of this run.
+/// True if a run of another division than `shards` writes here; `own` is this run's part.
 bool others_write(const fs::path& folder, const fs::path& own, int shards) {
     const std::string division = "-of-" + std::to_string(shards) + ".txt";
     return std::ranges::any_of(journal_parts(folder), [&](const fs::path& part) {
@@ -48,8 +46,7 @@ bool others_write(const fs::path& folder, const fs::path& own, int shards) {
     });
 }
 
-/// Makes a folder and those above it. InputError for a path that cannot be a folder; errors of the
-/// disk are passed on.
+/// InputError for a path that cannot be a folder; errors of the disk are passed on.
 void make_folder(const fs::path& folder) try {
     fs::create_directories(folder);
 } catch (const fs::filesystem_error& error) {

@@ -31,8 +31,7 @@ constexpr const char* variants_format = "sonarsim variants";
         "holds variants of another mission, number, seed or version of sonarsim" + which);
 }
 
-/// True if `found` has the first of the variants of `json`, or all of them, and is equal to it
-/// else.
+/// True if `found` is equal to `json` but may have only the first of its variants.
 bool begins(const Json& found, const Json& json) {
     const Json& first = found.at("variants");
     const Json& all = json.at("variants");
@@ -42,8 +41,7 @@ bool begins(const Json& found, const Json& json) {
            std::equal(first.begin(), first.end(), all.begin());
 }
 
-/// Removes the variants that the variants.json of the folder names. It goes last: the folder is
-/// recognised by it.
+/// Removes the variants that variants.json names, then that file, by which a folder is recognised.
 void remove_variants(const fs::path& folder, const Mission& mission) {
     const std::optional<Json> found = read_variants(folder);
     if (!found) return;
@@ -68,9 +66,8 @@ void require_places(const Mission& variant, SceneStore& models) {
     }
 }
 
-/// The number of pings of the dataset in the variant's folder, found without its scene; nothing
-/// unless it is complete, has all its files, and was made of this mission and these input files by
-/// a build with the same bytes.
+/// The number of pings in the variant's folder, found without its scene; nothing unless it is
+/// complete, has all files, and is of this mission, these inputs and a build with the same bytes.
 std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& models) try {
     const fs::path& folder = variant.output.folder;
     const DatasetFile found = require_dataset(folder);
@@ -91,8 +88,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& 
     return std::nullopt;  // run_job() says what is wrong
 }
 
-/// The variants of the shard that are to be rendered; their objects find room. Counts the pings of
-/// the others as skipped.
+/// The variants of the shard to render; their objects find room. Counts other pings as skipped.
 std::vector<int> unfinished(const Variants& variants, const RenderOptions& options,
                             SceneStore& models, RenderSummary& all) {
     std::vector<int> todo;

@@ -51,8 +51,7 @@ std::map<std::string, std::string> read_checksums(const fs::path& file) {
     return sums;
 }
 
-/// Adds the files in a folder that are not among the expected files and folders. `prefix` is the
-/// folder in the folder that is checked.
+/// Adds the files in the folder `prefix` of `top` that are not, nor lie in, an expected one.
 void list_strangers(const fs::path& top, const fs::path& prefix,
                     const std::set<std::string>& expected, DatasetCheck& check) {
     for (fs::recursive_directory_iterator entry(top / prefix), end; entry != end; ++entry) {

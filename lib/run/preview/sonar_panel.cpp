@@ -125,10 +125,9 @@ void write_numbers(Picture& picture, const FanFrame& frame, const View& view) {
     }
 }
 
-/// The grey values of render_fan() in amber, with rings of equal range and lines of equal azimuth.
-/// Numbers are written where there is room: ranges along the starboard edge of the sector, or along
-/// the boresight if it is wider than 180 degrees; bearings in degrees below the largest range, "P"
-/// for port and "S" for starboard.
+/// The grey values of render_fan() in amber, with rings and bearings. Numbers where there is room:
+/// ranges along the starboard edge, or the boresight of a view wider than 180 degrees; bearings in
+/// degrees below the largest range, "P" for port and "S" for starboard.
 Picture styled_fan(const Sonar& sonar, const FanFrame& frame, std::span<const std::uint8_t> grey) {
     Picture picture(frame.width, frame.height, backdrop);
     for (std::size_t k = 0; k < grey.size(); ++k)
@@ -171,8 +170,7 @@ struct Series {
     double white;
 };
 
-/// Draws the records as rows or, if `upright`, as columns; a pixel shows the mean of the values
-/// that it covers, at least one.
+/// Draws records as rows or columns (`upright`); a pixel is the mean of the values that it covers.
 void draw_values(Picture& picture, int left, int width, int height, const Series& series,
                  bool upright, std::span<const Rgb> stops) {
     const std::vector<std::vector<float>>& records = series.records;

@@ -16,8 +16,7 @@ MultipathConfig canonical(const MultipathConfig& config) {
     return {MultipathMethod::exact, 0, 0.0};
 }
 
-/// A sonar with one multipath method, its multipath echoes alone of all poses one after the other,
-/// and its times.
+/// A sonar with a method, its multipath echoes of all poses one after the other, and its times.
 struct MultipathTrial {
     Sonar sonar;
     std::vector<float> echoes;

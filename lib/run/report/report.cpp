@@ -52,8 +52,7 @@ struct Comparison {
     ReportOptions options;  ///< with the actual number of threads
 };
 
-/// Times Embree alone on rays over the view: once to warm the caches, then once per ping of a
-/// visit.
+/// Times Embree alone on rays over the view: once to warm the caches, then once per timed ping.
 void time_view_rays(const Comparison& comparison, std::span<const Eigen::Vector3f> in_sensor,
                     const TracedPing& traced, double range_max_m, PoseTimes& times) {
     constexpr int repeats = 3;

@@ -31,12 +31,10 @@ struct Setting {
 /// quarter of the finest range bin are omitted: they cost much and improve nothing.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
-/// The error message of a mission with this setting, if the engine does not support the scene or a
-/// view of its sonars; empty otherwise.
+/// The error message of the engine about the scene or the view of a sonar; "": none.
 std::string unsupported(const Setting& setting, const Assembly& assembly);
 
-/// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" for the octree,
-/// which has none.
+/// "met" if the goal holds at the worst pose, too, else "missed"; "-" for the octree without one.
 const char* goal_of(const Setting& setting, double worst_relative_l1);
 
 struct ReportOptions {
@@ -87,8 +85,7 @@ double thread_seconds_now();
 /// Number of rays whose time pings are compared with: Embree alone over the same view.
 inline constexpr int view_rays_count = 131'072;
 
-/// `view_rays_count` unit directions in the sensor frame, evenly spread over a view: 512 columns of
-/// 256 rays, column by column.
+/// Unit directions in the sensor frame, evenly over a view: 512 columns of 256, by column.
 std::vector<Eigen::Vector3f> view_rays(const View& view);
 
 /// The pings that every setting is measured on. Mission and scene must outlive it.

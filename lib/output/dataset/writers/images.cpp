@@ -37,8 +37,7 @@ Writer make_image_writer(const WriterContext& context) {
             }};
 }
 
-/// fan/NNNNNN.png: grey, 8 bits, as an operator sees it: of the calibrated model the values of
-/// raw/.
+/// fan/NNNNNN.png: grey, 8 bits, as an operator sees it; in the calibrated model raw/ as a fan.
 Writer make_fan_writer(const WriterContext& context) {
     const auto map = context.assembly.fans->map(context.sonar());
     const FanFrame frame = map->frame;

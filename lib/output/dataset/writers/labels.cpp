@@ -115,8 +115,7 @@ constexpr LabelFile label_files[] = {
     {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
 };
 
-/// Records of sonars without images. Their files of objects are made of these and of the records of
-/// instances or outlines.
+/// Records of which, with those of instances or outlines, files of objects are made.
 constexpr LabelFile annotation_records[] = {
     {Label::objects, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
     {Label::objects, visible_share_record, visible_shares},

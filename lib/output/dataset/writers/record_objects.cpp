@@ -205,8 +205,7 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
     return visible;
 }
 
-/// Writes a file for every sweep of a scanning sonar. A step that an unfinished sweep has not
-/// reached shows the sweep before.
+/// Writes a file for every sweep. Steps that an unfinished sweep lacks show the sweep before.
 void write_sweeps(const WriterContext& context, const std::filesystem::path& folder) {
     const ObjectRecords source(context, folder);
     const SonarConfig& config = context.sonar().config;

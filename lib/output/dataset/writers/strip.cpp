@@ -116,9 +116,8 @@ void describe_strip(const WriterContext& context, Json& sensor) {
 
 }  // namespace
 
-/// The records of a sonar whose picture is a strip, such as a waterfall or an echogram. NAME.npy:
-/// float32, a row or column per ping; NAME.png: the same in 16 bits; NAME_view.png: as an operator
-/// sees it, with an axis of ranges.
+/// The records of a sonar whose picture is a strip. NAME.npy: float32, a row or column per ping;
+/// NAME.png: the same in 16 bits; NAME_view.png: as an operator sees it, with an axis of ranges.
 Writer make_strip_writer(const WriterContext& context) {
     const RecordShape& shape = context.kind().record;
     const SonarConfig& config = context.sonar().config;
