@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "guarded.h"
-#include "input/scene/images/module.h"
 #include "tiff_header.h"
 
 // PNG, TIFF and OpenEXR through OpenImageIO. Pixels keep their values in the file: by default

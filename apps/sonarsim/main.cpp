@@ -1,7 +1,6 @@
 #include <malloc.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -9,7 +8,6 @@
 #include <filesystem>
 #include <new>
 #include <sstream>
-#include <string>
 #include <system_error>
 #include <vector>
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <regex>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "core/csv.h"

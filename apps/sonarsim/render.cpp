@@ -2,16 +2,13 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "commands.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "input/mission/variants.h"
 #include "mission_options.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"

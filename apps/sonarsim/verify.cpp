@@ -1,7 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
-
 #include "commands.h"
 #include "mission_options.h"
 #include "run/job/dataset_folders.h"

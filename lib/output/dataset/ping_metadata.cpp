@@ -2,7 +2,6 @@
 
 #include "core/text.h"
 #include "input/mission/ping_draws.h"
-#include "output/dataset/json.h"
 #include "output/dataset/writer.h"
 #include "simulate/calibrated/signal/decibel.h"
 

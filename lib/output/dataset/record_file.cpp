@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "core/file.h"
 #include "core/hash.h"
 
 namespace sonarsim {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
-#include <variant>
 
 #include "core/error.h"
 #include "output/dataset/writer.h"

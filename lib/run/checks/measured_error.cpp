@@ -1,7 +1,5 @@
 #include "run/checks/measured_error.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <utility>
 

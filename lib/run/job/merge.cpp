@@ -1,16 +1,13 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <string>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "output/dataset/dataset_file.h"
 #include "output/dataset/metadata.h"
 #include "run/job/dataset_folders.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
-#include "run/job/shard_lock.h"
 #include "run/job/variants.h"
 
 namespace sonarsim {

@@ -5,17 +5,13 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "output/dataset/dataset_file.h"
-#include "output/dataset/json.h"
 #include "run/checks/measured_error.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
-#include "run/job/shard_lock.h"
 
 namespace sonarsim {
 

@@ -1,10 +1,8 @@
 #include <set>
 
-#include "output/dataset/dataset_file.h"
 #include "run/job/dataset_folders.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
-#include "run/job/shard_lock.h"
 #include "run/job/variants.h"
 
 namespace sonarsim {

@@ -9,8 +9,6 @@
 #include "core/file.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
-#include "output/dataset/dataset_file.h"
-#include "output/dataset/layout.h"
 #include "output/dataset/metadata.h"
 #include "run/checks/find_warnings.h"
 #include "run/job/folder.h"

@@ -2,9 +2,7 @@
 
 #include "core/ordered_pipeline.h"
 #include "run/report/report.h"
-#include "simulate/assembly/assemble.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -11,7 +11,6 @@
 #include "run/checks/measured_error.h"
 #include "run/job/parallel.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {

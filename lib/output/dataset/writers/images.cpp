@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "output/dataset/json.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/fan.h"

@@ -3,10 +3,8 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "output/dataset/writer.h"
-#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -1,5 +1,3 @@
-#include <cstdint>
-
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/scan.h"

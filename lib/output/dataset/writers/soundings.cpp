@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <span>
 
-#include "core/file.h"
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
-#include "simulate/product/bathymetry.h"
 
 namespace sonarsim {
 

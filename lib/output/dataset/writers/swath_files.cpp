@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
 
-#include "core/file.h"
 #include "core/pose.h"
 #include "core/units.h"
 #include "output/dataset/map_place.h"
