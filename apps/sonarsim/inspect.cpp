@@ -73,8 +73,7 @@ void print_strengths(const MaterialTable& table, const Scattering& scattering,
     fmt::print("\n");
 }
 
-/// Prints how the materials of a CSV scatter in the calibrated model at this frequency in fresh
-/// water, by the grazing angle. InputError for a wrong file.
+/// Prints how the materials of a CSV scatter in fresh water, by the grazing angle.
 void print_materials(const std::filesystem::path& file, double frequency_khz, bool as_json) {
     MaterialTable table = read_materials(file);
     const Water water;

@@ -16,20 +16,18 @@ constexpr const char* run_again = "run the same command again to continue";
 struct MergeArguments {
     std::vector<std::filesystem::path> folders;  ///< the parts, then the output
     LogOptions log;
-
-    const std::filesystem::path& out() const { return folders.back(); }
-    std::vector<std::filesystem::path> parts() const {
-        return {folders.begin(), folders.end() - 1};
-    }
 };
 
 int merge(const MergeArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
+    std::vector<std::filesystem::path> parts = arguments.folders;
+    parts.pop_back();
+    const std::string out = arguments.folders.back().string();
     MergeSummary summary;
     {
         ProgressLine line(arguments.log, "datasets");
-        summary = merge_parts(arguments.parts(), arguments.out(), line.callback(), stop);
+        summary = merge_parts(parts, out, line.callback(), stop);
     }
     if (arguments.log.json) {
         fmt::print("{}\n", json_line({{"pings", summary.pings},
@@ -37,14 +35,12 @@ int merge(const MergeArguments& arguments) {
                                       {"missing", summary.missing},
                                       {"complete", summary.complete}}));
     }
-    if (summary.unlocked)
-        spdlog::warn("{}", sentence(make_warning(WarningCode::no_locks, arguments.out().string())));
+    if (summary.unlocked) spdlog::warn("{}", sentence(make_warning(WarningCode::no_locks, out)));
     if (summary.stopped) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
         return exit_code_of_signal();
     }
     const std::string made = made_text(summary.pings, summary.skipped, "copied");
-    const std::string out = arguments.out().string();
     if (summary.complete) {
         spdlog::info("{}: complete; {}", out, made);
     } else {

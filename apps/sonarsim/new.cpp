@@ -37,8 +37,7 @@ constexpr const char* usual_bed = "sand";
 constexpr const char* nameless = "(no material)";  // as load_scene_geometry()
 constexpr std::size_t largest_table = std::size_t{1} << 24;
 
-/// The row of the table that fits a name best: of the same name, else of the longest name that
-/// stands in it as a word; null if none does.
+/// The row of the same name, else of the longest name that stands in it as a word; else null.
 const CsvRow* row_of(const CsvTable& table, const std::string& name) {
     const CsvRow* best = nullptr;
     for (const CsvRow& row : table.rows) {
@@ -110,8 +109,7 @@ struct ReadMesh {
     std::vector<std::string> guesses;
 };
 
-/// Reads a mesh in the unit and with the axis that are given, else those that `inspect` asks about.
-/// InputError for a file that is no mesh or has no surface.
+/// Reads a mesh as given, else as `inspect` asks. InputError for no mesh or no surface.
 ReadMesh read_as_meant(const NewArguments& arguments) {
     const fs::path& path = arguments.mesh;
     ReadMesh mesh;

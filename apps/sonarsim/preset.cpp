@@ -18,8 +18,7 @@ namespace {
 
 constexpr double sphere_db = -20.0;
 
-/// The file that an argument means: a path as missions have it, or the name of a preset that comes
-/// with the program. InputError if it is neither.
+/// A path as missions have it, or the name of a preset of the program. InputError if neither.
 std::string preset_path(const std::string& name) {
     for (const std::string& path : {name, std::string(sensor_presets) + "/" + name + ".yaml"}) {
         const std::filesystem::path file = preset_file(path, std::filesystem::current_path());

@@ -33,12 +33,6 @@ Mission without_water_echoes(Mission mission) {
     return mission;
 }
 
-void write_files(const Json& report, const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
-    write_file(folder / "report.json", report_json(report));
-    write_file(folder / "report.md", report_markdown(report));
-}
-
 /// The settings to measure: the requested engines that support the mission's scene.
 std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission& mission,
                                  const Assembly& assembly) {
@@ -95,7 +89,12 @@ int report(const ReportArguments& arguments) {
     result["multipath_rows"] = measure_multipath(mission, assembly, options, progress);
     progress("the job with labels and files");
     result["job"] = measure_job(whole, result["rows"].at(0).at("ms_131k_rays"), options);
-    if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
+    if (!arguments.mission.out.empty()) {
+        const std::filesystem::path& folder = mission.output.folder;
+        std::filesystem::create_directories(folder);
+        write_file(folder / "report.json", report_json(result));
+        write_file(folder / "report.md", report_markdown(result));
+    }
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));
     return exit_done;

@@ -194,8 +194,7 @@ void survey_mission(Findings& findings) {
     append(findings.warnings, error_warnings(mission, findings.errors));
 }
 
-/// The variant as it is assembled to be checked. The white of a new dataset's pictures need not be
-/// found, which takes as long as all else together.
+/// Without the white of a new dataset's pictures, which takes as long to find as all else.
 Mission checked_variant(const Mission& variant) {
     Mission checked = variant;
     const bool is_new = !std::filesystem::exists(variant.output.folder);

@@ -22,10 +22,8 @@ Json report_of(const Mission& mission, const std::vector<Setting>& settings) {
 
 /// The error of rays with a fine goal.
 double error_of_rays(const Mission& mission) {
-    return report_of(
-        mission,
-        {{"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true}})["rows"][0]
-                                                                         ["worst_relative_l1"];
+    const Setting fine{"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true};
+    return report_of(mission, {fine})["rows"][0]["worst_relative_l1"];
 }
 
 /// Two sonars; only the first has multipath.

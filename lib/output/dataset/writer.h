@@ -102,8 +102,7 @@ struct PingNumbers {
     std::vector<std::size_t> shape;  ///< [rows, columns], or [values] of a record
 };
 
-/// The values of an image [range bins, beams] as the rows and columns of a sonar with images, else
-/// as its record; `blank` where that shows no bin.
+/// An image [range bins, beams] as rows and columns, or as the record; `blank` is for no bin.
 template <class T>
 PingNumbers numbers_of(const Sonar& sonar, std::vector<T> image, T blank) {
     const KindOfSonar& kind = kind_of(sonar.config.kind);

@@ -19,9 +19,8 @@ Writer make_soundings_writer(const WriterContext& context);
 Writer make_scan_writer(const WriterContext& context);
 Writer make_meta_writer(const WriterContext& context);
 
-/// The writers of all labels that `output.labels` asks for. An imaging or profiling sonar has a
-/// file per ping, NAME/NNNNNN.png or .npy with the rows and columns of the image; the others have a
-/// file of records, NAME.npy, of the shape of their echoes.
+/// The writers of `output.labels`: with images a file per ping, NAME/NNNNNN.png or .npy with the
+/// rows and columns of the image; else records, NAME.npy, of the shape of the echoes.
 std::vector<Writer> make_label_writers(const WriterContext& context);
 
 namespace {

@@ -109,8 +109,7 @@ void judge_azimuth(const SonarConfig& config, std::vector<Warning>& out) {
                                config.azimuth_deg, degrees(config.azimuth_deg)));
 }
 
-/// W39: pings that begin before the sound of the ping before is back. The poses of
-/// trajectory.look_at have no times of their own.
+/// W39: pings before the sound of the ping before is back. Poses of look_at have no times.
 void judge_ping_rate(const Mission& mission, const Trajectory& trajectory, const Sonar& sonar,
                      std::vector<Warning>& out) {
     if (std::holds_alternative<LookAtTrajectoryConfig>(mission.trajectory)) return;

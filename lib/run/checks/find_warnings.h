@@ -49,8 +49,7 @@ struct SensorSummary {
 std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SensorSummary> sensors);
 
-/// Objects that the mission places or gives a class, and that no sonar sees. An object that the
-/// survey did not see is looked for in pings that have it in view.
+/// Objects of the mission, or with a class, that no sonar sees in the survey or when in view.
 std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);

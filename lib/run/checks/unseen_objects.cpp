@@ -58,8 +58,7 @@ std::vector<Extent> extents_of(const Scene& scene) {
     return extents;
 }
 
-/// The angle between a point of the sensor frame and the field of view; 0 within it. In a fan it is
-/// measured to the nearest azimuth and elevation.
+/// The angle off the field of view, in a fan to the nearest azimuth and elevation; 0 within.
 double angle_off_view(const View& view, const Eigen::Vector3d& point) {
     const double half = 0.5 * view.azimuth_rad;
     if (view.shape == ViewShape::cone)
@@ -80,8 +79,7 @@ struct PoseInView {
     double angle_off = 0.0;
 };
 
-/// The poses at which a part of the sphere around an object is in the view of a sonar and within
-/// its range, with the least angle off the view first.
+/// The poses with a part of the sphere around an object in view and range, least angle off first.
 std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& assembly,
                                       const Sonar& sonar, const Extent& extent) {
     const View& view = sonar.settings.view;

@@ -26,9 +26,8 @@ std::string size_of(const fs::path& path) {
     return std::to_string(status.st_size);
 }
 
-/// Writes the files and records of a ping where the layout says; `encoded` has the bytes of each
-/// writer. Returns the fields of the ping in the journal. From any thread, in any order.
-/// std::system_error when the disk does not take it.
+/// Writes what each writer has `encoded` of a ping where the layout says. Returns the fields in the
+/// journal. From any thread, in any order. std::system_error when the disk does not take it.
 std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
                        const std::vector<std::string>& encoded) {
     const SensorLayout& sensor = layout.sensors[ping.sensor];

@@ -36,8 +36,7 @@ void require_same_variants(const std::filesystem::path& folder, const Json& json
 void inspect_variants(const std::filesystem::path& folder, const Json& json,
                       const Variants& variants, bool overwrite);
 
-/// Makes variants.json, or replaces one with fewer variants; the caller holds a lock on the folder.
-/// InputError when another one is there.
+/// Makes or extends variants.json; InputError for another one. The caller holds a lock.
 void claim_variants(const std::filesystem::path& folder, const Json& json);
 
 /// True if the folder holds a dataset that is complete.

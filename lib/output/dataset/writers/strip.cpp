@@ -7,8 +7,7 @@
 
 namespace sonarsim {
 
-// The files of a side-scan sonar for other programs that the mission asks for, made of
-// waterfall.npy: waterfall.xtf, and mosaic.tif with mosaic.json.
+// Files for other programs, made of waterfall.npy: waterfall.xtf, mosaic.tif with mosaic.json.
 std::vector<std::string> swath_products(const WriterContext& context);
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
                        const std::filesystem::path& folder);

@@ -39,8 +39,7 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     }
 }
 
-/// Heading, pitch and roll of the body of a sonar that looks down: those of the vehicle, turned by
-/// the mount. Its channels are port and starboard of this heading.
+/// Attitude of the body of a sonar that looks down; its channels are port and starboard of it.
 Rpy body_attitude(const Pose& T_world_sensor) {
     return rpy_from_rotation(T_world_sensor.rotation * rotation_from_rpy(0.0, -0.5 * pi, 0.0));
 }
