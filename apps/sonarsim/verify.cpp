@@ -14,15 +14,6 @@ struct VerifyArguments {
     LogOptions log;
 };
 
-void print_result(const DatasetCheck& check) {
-    const Json json = {{"whole", check.errors.empty()},
-                       {"files", check.files},
-                       {"bytes", check.bytes},
-                       {"errors", check.errors},
-                       {"unknown_files", check.unknown_files}};
-    fmt::print("{}\n", json_line(json));
-}
-
 int verify(const VerifyArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
@@ -40,7 +31,13 @@ int verify(const VerifyArguments& arguments) {
         spdlog::warn("stopped after {} files; nothing was changed", check.files);
         return exit_code_of_signal();
     }
-    if (arguments.log.json) print_result(check);
+    if (arguments.log.json) {
+        fmt::print("{}\n", json_line({{"whole", check.errors.empty()},
+                                      {"files", check.files},
+                                      {"bytes", check.bytes},
+                                      {"errors", check.errors},
+                                      {"unknown_files", check.unknown_files}}));
+    }
     if (!check.errors.empty()) return exit_failed;
     spdlog::info("{}: whole; {} files, {} bytes", folder.string(), check.files, check.bytes);
     return exit_done;

@@ -80,9 +80,8 @@ std::string checksums(const Layout& layout, const JournalEntries& entries,
     return lines;
 }
 
-/// Writes products, journal.txt and SHA256SUMS, then dataset.json with `complete`; closes
-/// `records`. Several shards may do it at once: they write the same. std::system_error when the
-/// disk fails.
+/// Writes products, journal.txt, SHA256SUMS, then dataset.json with `complete`; closes `records`.
+/// Several shards may do it at once: they write the same. std::system_error when the disk fails.
 void complete_dataset(const Layout& layout, RecordFiles& records, const CommonFiles& common) {
     for (std::size_t i = 0; i < records.size(); ++i) {
         for (std::size_t k = 0; k < records[i].size(); ++k) {
