@@ -1,5 +1,4 @@
 #include "run/checks/find_warnings.h"
-#include "run/job/run_job.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/small_mission.h"
@@ -57,65 +56,61 @@ SonarConfig line_array() {
 
 }  // namespace
 
-TEST_CASE("image warnings: none where all is well, or where nothing was rendered") {
-    Run run;
-    CHECK(run.warnings().empty());
-    run.sensors = {SensorSummary{}, SensorSummary{}};
-    CHECK(run.warnings().empty());
+TEST_CASE_FIXTURE(Run, "image warnings: none where all is well, or where nothing was rendered") {
+    CHECK(warnings().empty());
+    sensors = {SensorSummary{}, SensorSummary{}};
+    CHECK(warnings().empty());
 }
 
-TEST_CASE("image warnings: a blind sensor next to a seeing one") {
-    Run run;
-    run.blind_left();
-    CHECK(run.warnings() ==
+TEST_CASE_FIXTURE(Run, "image warnings: a blind sensor next to a seeing one") {
+    blind_left();
+    CHECK(warnings() ==
           Sentences{"W12 sensor 'left': 10 of 10 pings are blind: they see no surface within the "
                     "range; sonarsim validate prints the reason as W13 to W17; the trajectory may "
                     "leave the scene"});
-    run.sensors[1].brightest = 0.4F;
+    sensors[1].brightest = 0.4F;
     for (const std::uint64_t pings : {7U, 1U}) {
-        run.sensors[1].dark_pings = pings;
-        const Sentences some = run.warnings();
+        sensors[1].dark_pings = pings;
+        const Sentences some = warnings();
         REQUIRE(some.size() == 1);
         CHECK(some[0].starts_with(fmt::format("W12 sensor 'left': {} of 10 pings", pings)));
     }
-    run.sensors[1].dark_pings = 0;
-    CHECK(run.warnings().empty());
+    sensors[1].dark_pings = 0;
+    CHECK(warnings().empty());
 }
 
-TEST_CASE("image warnings: a full scale far above or below what is seen") {
-    Run run;
-    run.mission.output.full_scale = 1e6;
-    const Sentences dark = run.warnings();
+TEST_CASE_FIXTURE(Run, "image warnings: a full scale far above or below what is seen") {
+    mission.output.full_scale = 1e6;
+    const Sentences dark = warnings();
     REQUIRE(dark.size() == 2);
     CHECK(dark[0] ==
           "W20 sensor 'front': its brightest pixel is 0.4, which is grey level 0 of 255 in fans; "
           "lower output.full_scale (1e+06)");
     // 255 sqrt(0.4 / full_scale) = 16 at a full scale of 101.6.
-    run.mission.output.full_scale = 101.0;
-    CHECK(run.warnings().empty());
-    run.mission.output.full_scale = 102.0;
-    CHECK(run.warnings().size() == 2);
+    mission.output.full_scale = 101.0;
+    CHECK(warnings().empty());
+    mission.output.full_scale = 102.0;
+    CHECK(warnings().size() == 2);
     // 5 % of the 500 occupied bins are 25.
-    run.mission.output.full_scale = 0.1;
-    run.sensors[1].clipped_pixels = 25;
-    CHECK(run.warnings().empty());
-    run.sensors[1].clipped_pixels = 26;
+    mission.output.full_scale = 0.1;
+    sensors[1].clipped_pixels = 25;
+    CHECK(warnings().empty());
+    sensors[1].clipped_pixels = 26;
     CHECK(
-        run.warnings() ==
+        warnings() ==
         Sentences{"W19 sensor 'left': 5.2 % of its occupied bins are above output.full_scale (0.1) "
                   "and white in pictures; the brightest is 0.4; raise output.full_scale"});
 }
 
-TEST_CASE("warnings before pings: a material as the water") {
-    Run run;
-    run.assembly = small_assembly(run.mission, 1);
-    Material& material = run.assembly.scene.materials[0];
+TEST_CASE_FIXTURE(Run, "warnings before pings: a material as the water") {
+    assembly = small_assembly(mission, 1);
+    Material& material = assembly.scene.materials[0];
     material.name = "Jelly";
     material.density_kg_m3 = 998.0;
     material.sound_speed_m_s = 1480.0;
     const auto warned = [&] {
         return std::ranges::count(
-            sentences(warnings_before_pings(run.mission, run.assembly)),
+            sentences(warnings_before_pings(mission, assembly)),
             "W09 material 'Jelly': it (998 kg/m^3, 1480 m/s) reflects 2.5e-07 of the power in "
             "this water (997 kg/m^3, 1480 m/s): its impedance is that of the water; check the "
             "materials' CSV and the water block");

@@ -6,8 +6,6 @@
 #include "run/job/dataset_folders.h"
 #include "support/small_mission.h"
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 /// Every value of a tree, the tree itself included.
@@ -57,10 +55,11 @@ TEST_CASE("dataset file: names that stay below their folder") {
 }
 
 // cli/test_verify.py has what is refused by every command.
-TEST_CASE("dataset file: sound keys are read, paths that are not the sensor's own are refused") {
-    const TemporaryFolder folder;
-    run(small_mission(folder.path / "out"));
-    const Json sound = read_json(folder.path / "out/dataset.json");
+TEST_CASE_FIXTURE(
+    MissionInFolder,
+    "dataset file: sound keys are read, paths that are not the sensor's own are refused") {
+    run(mission);
+    const Json sound = read_json(out / "dataset.json");
     const DatasetFile dataset = parse_description(sound, "dataset.json");
     CHECK(dataset.complete);
     CHECK(dataset.poses == poses);
@@ -87,13 +86,11 @@ TEST_CASE("dataset file: sound keys are read, paths that are not the sensor's ow
 
 // Whatever stands in dataset.json, each command refuses it with a sentence or does its work,
 // and no file next to the dataset changes.
-TEST_CASE("dataset file: a sound one changed at random is refused or read") {
-    const TemporaryFolder folder;
-    const std::filesystem::path out = folder.path / "out";
-    Mission mission = small_mission(out);
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "dataset file: a sound one changed at random is refused or read") {
     run(mission);
-    std::filesystem::create_directory(folder.path / "victim");
-    write_file(folder.path / "victim/dataset.json", "kept");
+    std::filesystem::create_directory(temporary.path / "victim");
+    write_file(temporary.path / "victim/dataset.json", "kept");
     const Json sound = read_json(out / "dataset.json");
     std::mt19937_64 random(25);
     for (int k = 0; k < 800; ++k) {
@@ -119,10 +116,10 @@ TEST_CASE("dataset file: a sound one changed at random is refused or read") {
         const std::atomic<bool> go(false);
         expect_input_error("verify", json, [&] { verify_folder(out, 1, nullptr, go); });
         expect_input_error("status", json, [&] { read_status({out}); });
-        const std::filesystem::path merged = folder.path / "merged";
+        const std::filesystem::path merged = temporary.path / "merged";
         expect_input_error("merge", json, [&] { merge_parts({out}, merged, {}, go); });
         expect_input_error("render", json, [&] { run(mission); });
         std::filesystem::remove_all(merged);
-        CHECK(read_file(folder.path / "victim/dataset.json", 100) == "kept");
+        CHECK(read_file(temporary.path / "victim/dataset.json", 100) == "kept");
     }
 }

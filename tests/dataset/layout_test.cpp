@@ -2,16 +2,10 @@
 
 #include "output/dataset/encode_ping.h"
 #include "output/dataset/metadata.h"
-#include "run/job/run_job.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"
 
 namespace {
-
-Layout layout_of(const Mission& mission, int poses) {
-    const Assembly assembly = small_assembly(mission, poses);
-    return make_layout(mission, make_writers(mission, assembly), poses);
-}
 
 Ping image_of(std::vector<float> pixels) {
     Ping image;
@@ -24,11 +18,12 @@ Ping image_of(std::vector<float> pixels) {
 }  // namespace
 
 TEST_CASE("layout: files bear the pose's index in six digits, or as many as it takes") {
-    Layout layout = layout_of(small_mission("out"), 1);
+    const Mission mission = small_mission("out");
+    const Layout layout =
+        make_layout(mission, make_writers(mission, small_assembly(mission, 1)), 1);
     CHECK(layout.file({7, 0}, {"polar", ".npy"}) == "out/front/polar/000007.npy");
     CHECK(layout.file({7, 1}, {"fan", ".png"}) == "out/left/fan/000007.png");
     CHECK(layout.file({999'999, 1}, {"meta", ".json"}) == "out/left/meta/999999.json");
-    const Mission mission = small_mission("out");
     CHECK(make_layout(mission, {}, 1'000'000).number(7) == "000007");
     CHECK(make_layout(mission, {}, 1'000'001).number(7) == "0000007");
     CHECK(make_layout(mission, {}, 0).number(0) == "000000");
@@ -77,14 +72,12 @@ TEST_CASE("finite image: the brightest pixel is found, and one that is not finit
     }
 }
 
-TEST_CASE("finite image: a run ends before it writes one that is not") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
+TEST_CASE_FIXTURE(MissionInFolder, "finite image: a run ends before it writes one that is not") {
     Assembly assembly = small_assembly(mission, 1);
     change_paper_model(assembly.sonars[1],
                        [](PaperModel& model) { model.pixel_noise.lobe_scale[3] = std::nanf(""); });
     CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
                          doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
                          std::runtime_error);
-    CHECK_FALSE(std::filesystem::exists(temporary.path / "out/left/polar/000000.npy"));
+    CHECK_FALSE(std::filesystem::exists(out / "left/polar/000000.npy"));
 }

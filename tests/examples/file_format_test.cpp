@@ -28,8 +28,7 @@ Writer make_nearest_writer(const WriterContext&) {
 /// A wall across the boresight at x = 5 m, a beam at azimuth phi: its first echo is at 5 /
 /// cos(phi), since the wall is nearest in the plane of the boresight.
 TEST_CASE("example of a file format: the nearest echo of each beam") {
-    const TemporaryFolder temporary;
-    Mission mission = small_mission(temporary.path / "out");
+    Mission mission = small_mission("unused");
     mission.sensors.resize(1);
     mission.sensors[0].noise = {};
     mission.sensors[0].mount = {};

@@ -1,7 +1,6 @@
 #include "run/job/folder.h"
 
 #include "output/format/png.h"
-#include "run/job/run_job.h"
 #include "support/small_mission.h"
 
 namespace fs = std::filesystem;
@@ -39,32 +38,31 @@ TEST_CASE("folder: an empty folder and one with a crash's first breath are fresh
     CHECK(run(small_mission(temporary.path), 2, false).complete);
 }
 
-TEST_CASE("folder: what is not a dataset is never overwritten, asked or not") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "folder: what is not a dataset is never overwritten, asked or not") {
     const std::string cure = "; choose another output.folder";
     for (const bool overwrite : {false, true}) {
-        fs::create_directory(mission.output.folder);
-        write_file(mission.output.folder / "thesis.tex", "five years");
+        fs::create_directory(out);
+        write_file(out / "thesis.tex", "five years");
         check_refused(mission, "holds files that are not a sonarsim dataset" + cure, overwrite);
         for (const char* json :
              {"", "{", "[]", "3", "{}", R"({"format": "other"})", R"({"format": 3})"}) {
-            write_file(mission.output.folder / "dataset.json", json);
+            write_file(out / "dataset.json", json);
             check_refused(mission, "holds a dataset.json that is not sonarsim's" + cure, overwrite);
         }
-        fs::remove_all(mission.output.folder);
-        write_file(mission.output.folder, "a file");
+        fs::remove_all(out);
+        write_file(out, "a file");
         CHECK_THROWS_WITH_AS(run(mission, 4, overwrite),
-                             (mission.output.folder.string() + ": is not a folder").c_str(),
-                             InputError);
-        fs::remove(mission.output.folder);
+                             (out.string() + ": is not a folder").c_str(), InputError);
+        fs::remove(out);
     }
 }
-TEST_CASE("folder: versions and builds are mixed where their arithmetic agrees, and only there") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
+
+TEST_CASE_FIXTURE(
+    MissionInFolder,
+    "folder: versions and builds are mixed where their arithmetic agrees, and only there") {
     run(mission, 4, false);
-    const fs::path description = mission.output.folder / "dataset.json";
+    const fs::path description = out / "dataset.json";
     edit(description, "\"compiler\": \"", "\"compiler\": \"another ");
     CHECK(run(mission, 4, false).complete);
     const std::string png = png_encoder;
@@ -83,10 +81,8 @@ TEST_CASE("folder: versions and builds are mixed where their arithmetic agrees, 
             or_overwrite);
 }
 
-TEST_CASE("folder: overwrite removes the sensors of the old dataset and nothing else") {
-    const TemporaryFolder temporary;
-    Mission mission = small_mission(temporary.path / "out");
-    const fs::path& out = mission.output.folder;
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "folder: overwrite removes the sensors of the old dataset and nothing else") {
     mission.sensors[1].name = "gone";
     run(mission, 8, false);
     const std::vector<fs::path> notes{out / "notes.txt", out / ".film.mkv.part",
@@ -109,10 +105,7 @@ TEST_CASE("folder: overwrite removes the sensors of the old dataset and nothing 
     CHECK(contents(out) == files);
 }
 
-TEST_CASE("folder: whatever a description says, overwriting stays below") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
-    const fs::path& out = mission.output.folder;
+TEST_CASE_FIXTURE(MissionInFolder, "folder: whatever a description says, overwriting stays below") {
     run(mission, 4, false);
     fs::create_directory(temporary.path / "victim");
     write_file(temporary.path / "victim/file", "mine");
@@ -127,10 +120,7 @@ TEST_CASE("folder: whatever a description says, overwriting stays below") {
     }
 }
 
-TEST_CASE("folder: neither overwriting nor writing goes through a link") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
-    const fs::path& out = mission.output.folder;
+TEST_CASE_FIXTURE(MissionInFolder, "folder: neither overwriting nor writing goes through a link") {
     run(mission, 4, false);
     // Another dataset, reached through the first one's folder.
     const Mission other = small_mission(temporary.path / "other");

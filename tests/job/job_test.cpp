@@ -15,10 +15,9 @@ bool is_complete(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("job: a ping that saw nothing is there like any other") {
+TEST_CASE_FIXTURE(MissionInFolder, "job: a ping that saw nothing is there like any other") {
     // Straight up out of the tank: without noise every record is zero.
-    const TemporaryFolder temporary;
-    Mission mission = survey_mission(temporary.path / "out");
+    mission = survey_mission(out);
     mission.sensors = {mission.sensors[2], mission.sensors[3]};
     for (SonarConfig& sensor : mission.sensors) {
         sensor.noise = {};
@@ -36,10 +35,9 @@ TEST_CASE("job: a ping that saw nothing is there like any other") {
     CHECK(run(shards, {.shard = 1, .shards = 2}).complete);
 }
 
-TEST_CASE("job: a file that goes away during the run is no part of a complete dataset") {
-    const TemporaryFolder temporary;
-    const Mission mission = survey_mission(temporary.path / "out");
-    const fs::path& out = mission.output.folder;
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "job: a file that goes away during the run is no part of a complete dataset") {
+    mission = survey_mission(out);
     const auto thief = [&](const RenderSummary& so_far, std::uint64_t total) {
         if (so_far.pings == total) fs::remove(out / "front/polar/000000.npy");
     };
@@ -64,37 +62,35 @@ TEST_CASE("job: a file that goes away during the run is no part of a complete da
     }
 }
 
-TEST_CASE("job: lines of the journal that are torn or made up do not count") {
-    const TemporaryFolder temporary;
-    Mission mission = small_mission(temporary.path / "out");
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "job: lines of the journal that are torn or made up do not count") {
     mission.sensors[0].name = "journal";  // a sensor may have this name
     run(mission);
-    const auto whole = contents(mission.output.folder);
-    fs::remove_all(mission.output.folder);
+    const auto whole = contents(out);
+    fs::remove_all(out);
     std::atomic<bool> stop = false;
     const RenderSummary first = run_with(
         mission, [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 4; },
         stop);
     CHECK(first.stopped);
-    const fs::path part = mission.output.folder / "journal.d/1-of-1.txt";
+    const fs::path part = out / "journal.d/1-of-1.txt";
     const std::string lines = read_file(part, 1 << 20);
     write_file(part, lines.substr(0, lines.size() - 3) + "\nping 0 6 1 1 1 1 00000000\nping\n");
     const RenderSummary rest = run(mission);
     CHECK(rest.complete);
     CHECK(rest.skipped > 0);
-    CHECK(contents(mission.output.folder) == whole);
+    CHECK(contents(out) == whole);
 }
 
-TEST_CASE("job: a shard leaves the temporary files of another one, the last removes them") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
-    const fs::path half = mission.output.folder / "front/polar/.000001.npy.0123456789abcdef.part";
+TEST_CASE_FIXTURE(MissionInFolder,
+                  "job: a shard leaves the temporary files of another one, the last removes them") {
+    const fs::path half = out / "front/polar/.000001.npy.0123456789abcdef.part";
     // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8. The last two of 12 shards have none.
     CHECK(run(mission, {.shard = 2, .shards = 3}).pings == 3);
     write_file(half, "at work");
     CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
     CHECK(fs::exists(half));
-    CHECK_FALSE(is_complete(mission.output.folder));
+    CHECK_FALSE(is_complete(out));
     CHECK(run(mission, {.shard = 1, .shards = 3}).complete);
     CHECK_FALSE(fs::exists(half));
     const RenderSummary idle =
@@ -103,15 +99,13 @@ TEST_CASE("job: a shard leaves the temporary files of another one, the last remo
     CHECK_FALSE(idle.complete);
 }
 
-TEST_CASE("job: options that make no sense are refused") {
-    const TemporaryFolder temporary;
-    const Mission mission = small_mission(temporary.path / "out");
+TEST_CASE_FIXTURE(MissionInFolder, "job: options that make no sense are refused") {
     CHECK_THROWS_AS(run(mission, {.threads = -1}), InputError);
     CHECK_THROWS_AS(run(mission, {.shard = 2, .shards = 2}), InputError);
     CHECK_THROWS_AS(run(mission, {.shard = -1, .shards = 2}), InputError);
     CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 0}), InputError);
     CHECK_THROWS_AS(run(mission, {.shard = 0, .shards = 2, .overwrite = true}), InputError);
-    CHECK_FALSE(fs::exists(temporary.path / "out"));
+    CHECK_FALSE(fs::exists(out));
 }
 
 TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
@@ -129,10 +123,10 @@ TEST_CASE("series: shards merged by copying lose records, and one more run bring
     CHECK(contents(merged) == contents(temporary.path / "whole"));
 }
 
-TEST_CASE("series: pictures are made again without a ping, an old folder of a sensor goes whole") {
-    const TemporaryFolder temporary;
-    const fs::path out = temporary.path / "out";
-    const Mission mission = survey_mission(out);
+TEST_CASE_FIXTURE(
+    MissionInFolder,
+    "series: pictures are made again without a ping, an old folder of a sensor goes whole") {
+    mission = survey_mission(out);
     run(mission);
     const auto whole = contents(out);
     fs::remove(out / "sounder/echogram_view.png");

@@ -16,10 +16,10 @@ Writer make_strip_writer(const WriterContext& context);
 namespace fs = std::filesystem;
 
 // The arrays of images: tests/golden, and cli/test_python.py without files.
-TEST_CASE("series: soundings are those of the pings, and metadata what the sonars measured") {
-    const TemporaryFolder temporary;
-    const fs::path out = temporary.path / "out";
-    const Mission mission = survey_mission(out);
+TEST_CASE_FIXTURE(
+    MissionInFolder,
+    "series: soundings are those of the pings, and metadata what the sonars measured") {
+    mission = survey_mission(out);
     const Assembly assembly = small_assembly(mission, poses);
     CHECK(run(mission).pings == 3 * 7 + 4);
     const auto engine = make_engine(assembly.scene, engine_settings(mission));
@@ -52,9 +52,7 @@ TEST_CASE("series: soundings are those of the pings, and metadata what the sonar
     CHECK(measured("mbes/meta/000000.json").at("soundings") == 40);
 }
 
-TEST_CASE("series: a map has the means of the soundings in its cells") {
-    const TemporaryFolder temporary;
-    const fs::path out = temporary.path / "out";
+TEST_CASE_FIXTURE(MissionInFolder, "series: a map has the means of the soundings in its cells") {
     run(survey_mission(out));
     const auto soundings = data_of<double>(out / "mbes/soundings.npy", {"<f8", {7, 40, 5}});
     const Json map = Json::parse(read_file(out / "mbes/bathymetry.json", 1 << 20));

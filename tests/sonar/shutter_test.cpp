@@ -2,6 +2,7 @@
 #include <span>
 
 #include "simulate/product/object_table.h"
+#include "support/calibrated.h"
 #include "support/labelled.h"
 
 namespace {
@@ -40,21 +41,19 @@ Scene plates() {
     return scene;
 }
 
-bool is_bright(const Ping& ping, int beam) {
-    for (int i = 0; i < ping.range_bins; ++i) {
-        if (ping.at(i, beam) > 0.0F) return true;
-    }
-    return false;
-}
+struct AmongPlates {
+    Scene scene = plates();
+    SceneObjects objects = group_objects(scene, {});
+    std::unique_ptr<VisibilityEngine> engine = make_rays_engine(scene);
+};
 
 }  // namespace
 
 // The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world: a
 // shear. w P is 2 degrees and w 2 r / c 0.533 degrees, so that a beam has all of a plate in it
 // or none. One beam in five shows a plate.
-TEST_CASE("shutter: a fan that yaws shears the picture by its rate times the time") {
-    const Scene scene = plates();
-    const auto engine = make_rays_engine(scene);
+TEST_CASE_FIXTURE(AmongPlates,
+                  "shutter: a fan that yaws shears the picture by its rate times the time") {
     for (const ShutterOrder order : {ShutterOrder::in_turn, ShutterOrder::interleaved}) {
         const Sonar sonar = yawing_camera(order, turn_deg_s);
         const Ping ping = render_ping(sonar, scene, *engine, {}, {.seed = 1}, without_random_terms);
@@ -65,17 +64,15 @@ TEST_CASE("shutter: a fan that yaws shears the picture by its rate times the tim
             const double off = std::fabs(middle - 5.0 * std::round(middle / 5.0));
             CAPTURE(j);
             // Beams are one degree wide.
-            CHECK(is_bright(ping, j) == (off < 0.5 + half_plate_deg));
-            bright += is_bright(ping, j) ? 1 : 0;
+            const bool is_bright = (image_array(ping.intensity, 60).col(j) > 0.0F).any();
+            CHECK(is_bright == (off < 0.5 + half_plate_deg));
+            bright += is_bright ? 1 : 0;
         }
         CHECK(bright == 12);
     }
 }
 
-TEST_CASE("shutter: every label of a beam is that of its group traced alone") {
-    const Scene scene = plates();
-    const auto engine = make_rays_engine(scene);
-    const SceneObjects objects = group_objects(scene, {});
+TEST_CASE_FIXTURE(AmongPlates, "shutter: every label of a beam is that of its group traced alone") {
     LabelRequest request = everything;
     request.outlines = request.height = request.annotations = true;
     for (const ShutterOrder order : {ShutterOrder::in_turn, ShutterOrder::interleaved}) {
@@ -107,12 +104,10 @@ TEST_CASE("shutter: every label of a beam is that of its group traced alone") {
 
 // A plate lies 0.533 degrees to starboard of its place. The first group sees the plates from
 // -30 to 30 degrees, and the last beams those at 35 and 40 degrees.
-TEST_CASE("shutter: the box of an object is that of what the beams of all groups see") {
-    const Scene scene = plates();
-    const auto engine = make_rays_engine(scene);
+TEST_CASE_FIXTURE(AmongPlates,
+                  "shutter: the box of an object is that of what the beams of all groups see") {
     const Sonar sonar = yawing_camera(ShutterOrder::in_turn, turn_deg_s);
     const TracedPing traced = trace(sonar, scene, *engine, {}, 0);
-    const SceneObjects objects = group_objects(scene, {});
     const PingLabels labels =
         label_ping(traced, sonar.settings, scene, objects, *engine, everything);
     const Ping ping = form_image(traced, sonar.settings, scene, {});
@@ -129,9 +124,7 @@ TEST_CASE("shutter: the box of an object is that of what the beams of all groups
     }
 }
 
-TEST_CASE("shutter: at speed 0 the same bytes as all beams at once") {
-    const Scene scene = plates();
-    const auto engine = make_rays_engine(scene);
+TEST_CASE_FIXTURE(AmongPlates, "shutter: at speed 0 the same bytes as all beams at once") {
     Sonar sonar = yawing_camera(ShutterOrder::in_turn, 0.0);
     const Ping ping = render_ping(sonar, scene, *engine, {}, {.seed = 1});
     sonar.config.shutter = {};

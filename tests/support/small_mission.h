@@ -20,6 +20,13 @@ Assembly small_assembly(const Mission& mission, int poses);
 /// The bytes of every file below a folder, by its path relative to the folder.
 std::map<std::string, std::string> contents(const std::filesystem::path& folder);
 
+/// The small mission of a test, whose dataset is out/ in a folder of its own.
+struct MissionInFolder {
+    TemporaryFolder temporary;
+    std::filesystem::path out = temporary.path / "out";
+    Mission mission = small_mission(out);
+};
+
 inline constexpr int poses = 7;  // front pings at all of them, left at 0, 3 and 6: ten pings
 
 inline RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
