@@ -96,7 +96,7 @@ TEST_CASE("water's surface: what hides it, and a sonar above it") {
     CHECK(area_between(scene_below(), view, pitched(-90.0, {0.0, 0.0, 6.0}), 0.0, 40.0) == 0.0);
 }
 
-TEST_CASE("water surface: the second bottom echo of an echosounder") {
+TEST_CASE("water surface: the second bottom echo of an echosounder and of a side-scan sonar") {
     // Sound goes down, up to the surface d above, down to the bottom h below, and up: half of
     // that, 2 h + d, is the range at nadir. Off nadir by an angle a, in the unfolded world, the
     // second point lies x = (3 h + 2 d) tan a aside, so that the range is
@@ -106,10 +106,17 @@ TEST_CASE("water surface: the second bottom echo of an echosounder") {
     Scene scene = floor_scene(50.0F, 0.0F, 0.25F, 4);
     scene.water_surface = {h + d, 0.9F};
     const View view{radians(30.0), radians(30.0), 0.5, 20.0, 400, 1, 0.03, ViewShape::cone};
+    const View sides = with_shape({radians(120.0), radians(4.0), 0.5, 20.0, 400, 2, 0.03},
+                                  ViewShape::port_starboard);
     const Pose down = pitched(90.0, {0.0, 0.0, h});
-    for (const int epsilon : {0, 5}) {
-        const auto found = find(scene, view, clusters_of(epsilon), down);
+    for (const auto& [of, epsilon] : {std::pair{view, 0}, {view, 5}, {sides, 0}, {sides, 5}}) {
+        CAPTURE_ALL(static_cast<int>(of.shape), epsilon);
+        const auto found = find(scene, of, clusters_of(epsilon), down);
         REQUIRE(found.bounces.size() > 10);
+        const auto is_to_port = [](const BouncePath& b) { return b.beam >= 1.0F; };
+        const auto to_port = std::ranges::count_if(found.bounces, is_to_port);
+        if (of.shape != ViewShape::cone)
+            CHECK((to_port > 0 && to_port < std::ssize(found.bounces)));
         float nearest = 1e9F;
         for (const BouncePath& b : found.bounces) {
             const Eigen::Vector3d p = found.samples.items[b.sample].position.cast<double>();
@@ -123,7 +130,7 @@ TEST_CASE("water surface: the second bottom echo of an echosounder") {
             // R_b, R_s, R_b and the cosine of a mirror: q . v of the last leg.
             CHECK(b.intensity < 0.25F * 0.9F * 0.25F + 1e-6F);
         }
-        CHECK(std::fabs(nearest - (2.0 * h + d)) < 0.02);
+        CHECK(std::fabs(nearest - (2.0 * h + d)) < (of.shape == ViewShape::cone ? 0.02 : 0.5));
     }
     // Without a surface nothing comes back, and a sonar above it hears nothing of it.
     scene.water_surface.reset();
