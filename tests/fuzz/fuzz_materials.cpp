@@ -9,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace sonarsim;
     const auto is_positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-    try {
+    return read_or_refuse([&] {
         for (const Material& material : parse_materials(text_of(data, size), "m.csv").materials) {
             require(!material.name.empty() && is_positive(material.density_kg_m3) &&
                     is_positive(material.sound_speed_m_s) && std::isfinite(material.lambert_db) &&
@@ -19,8 +19,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                   material.spectral_exponent, material.volume_parameter})
                 require(std::isfinite(number.value_or(0.0)));
         }
-    } catch (const InputError&) {
-        return 0;
-    }
-    return 0;
+    });
 }

@@ -54,13 +54,18 @@ inline void check_promises(const Scene& scene) {
     require(!describe_scene(scene).empty());
 }
 
-inline int check_scene_file(const std::filesystem::path& file) {
+/// Reads and checks an input, which may be refused; returns what a target does.
+template <class Read>
+int read_or_refuse(Read read) {
     try {
-        check_promises(load_scene_geometry(file));
+        read();
     } catch (const InputError&) {
-        return 0;
     }
     return 0;
+}
+
+inline int check_scene_file(const std::filesystem::path& file) {
+    return read_or_refuse([&] { check_promises(load_scene_geometry(file)); });
 }
 
 }  // namespace sonarsim
