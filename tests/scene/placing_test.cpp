@@ -105,37 +105,24 @@ double min_gap(const Surface& object) {
     return gap;
 }
 
-/// True if two boxes meet as seen from above: a point of a side of one lies in a face of the other.
+/// True if two convex bodies meet as seen from above: no line through two corners of one of them
+/// has all of it on one side and the other body on the other.
 bool meet_from_above(const Surface& one, const Surface& other) {
-    const Eigen::AlignedBox3d a = box_of(one);
-    const Eigen::AlignedBox3d b = box_of(other);
-    if ((a.min().array() > b.max().array() || b.min().array() > a.max().array()).head<2>().any())
-        return false;
-    const auto in_face = [&](const Eigen::Vector2d& p) {
-        return std::ranges::any_of(other.triangles, [&](const auto& corners) {
-            int sides = 0;
-            int turns = 0;
-            for (int k = 0; k < 3; ++k) {
-                const Eigen::Vector2d q = other.vertices[corners[k]].template head<2>();
-                const Eigen::Vector2d r = other.vertices[corners[(k + 1) % 3]].template head<2>();
-                const double cross = (r - q).x() * (p - q).y() - (r - q).y() * (p - q).x();
-                sides += cross > 1e-9;
-                turns += cross < -1e-9;
-            }
-            return sides == 3 || turns == 3;
-        });
-    };
-    for (const auto& corners : one.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector2d from = one.vertices[corners[k]].head<2>();
-            const Eigen::Vector2d to = one.vertices[corners[(k + 1) % 3]].head<2>();
-            const int steps = 1 + static_cast<int>((to - from).norm() / 1e-2);
-            for (int s = 0; s <= steps; ++s) {
-                if (in_face(from + static_cast<double>(s) / steps * (to - from))) return true;
+    const auto is_apart = [](const Surface& from, const Surface& to) {
+        for (const Eigen::Vector3d& p : from.vertices) {
+            for (const Eigen::Vector3d& q : from.vertices) {
+                const Eigen::Vector2d across(p.y() - q.y(), q.x() - p.x());
+                const auto side = [&](const Eigen::Vector3d& v) {
+                    return across.dot((v - p).head<2>());
+                };
+                if (std::ranges::all_of(from.vertices, [&](auto& v) { return side(v) < 1e-9; }) &&
+                    std::ranges::all_of(to.vertices, [&](auto& v) { return side(v) > 1e-9; }))
+                    return true;
             }
         }
-    }
-    return false;
+        return false;
+    };
+    return !is_apart(one, other) && !is_apart(other, one);
 }
 
 /// Twenty objects that are drawn, in their places.
