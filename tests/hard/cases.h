@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/pose.h"
 #include "input/mission/mission.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
@@ -50,7 +49,9 @@ struct HardBounds {
 struct HardCase {
     std::string name;
     Scene scene;
-    std::function<HardTrial(SonarKind)> trial = [](SonarKind kind) { return over_floor(kind); };
+    bool starts_in_tank = false;  ///< the trial is in_tank(), else over_floor()
+    ConfigChange change = {};
+    std::function<void(SonarKind, Pose&)> move = {};  ///< moves the vehicle from its place there
     /// The expected image, [range_bins, beams]; none: only the invariants are checked.
     std::function<std::vector<float>(const HardContext&)> truth = {};
     HardBounds bounds = {};
@@ -58,6 +59,8 @@ struct HardCase {
     /// another model is compared without its random terms.
     bool truth_of_any_model = false;
     bool rays_fail = false;  ///< a known fault
+
+    HardTrial trial(SonarKind kind) const;
 };
 
 /// Floors, walls and rooms; triangles that are odd; the tank, changed in a way that changes no

@@ -3,8 +3,6 @@
 #include "simulate/paper/echoes.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
-#include "simulate/visibility/make_engine.h"
 
 namespace {
 

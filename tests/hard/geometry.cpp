@@ -12,10 +12,6 @@ void add_triangle(Scene& scene, const std::array<std::uint32_t, 3>& corners) {
     scene.triangle_instance.push_back(0);
 }
 
-HardTrial plain_in_tank(SonarKind kind) {
-    return in_tank(kind);
-}
-
 /// Triangles that are a point, a line, or folded onto themselves.
 HardCase triangles_without_area() {
     Scene scene = plain_floor();
@@ -58,7 +54,7 @@ HardCase duplicated_faces() {
     }
     return {.name = "duplicated faces",
             .scene = scene,
-            .trial = plain_in_tank,
+            .starts_in_tank = true,
             .truth = tank_image,
             .bounds = {1e-5, 0.01}};
 }
@@ -69,7 +65,7 @@ HardCase flipped_normals() {
         std::swap(scene.triangles[i][1], scene.triangles[i][2]);
     return {.name = "flipped normals",
             .scene = scene,
-            .trial = plain_in_tank,
+            .starts_in_tank = true,
             .truth = tank_image,
             // Strips divide clipped triangles from another corner.
             .bounds = {0.01},
@@ -114,22 +110,14 @@ Scene tank_with(Change change) {
     return scene;
 }
 
-/// The trial in the tank with a change to the vehicle's pose.
-std::function<HardTrial(SonarKind)> moved_in_tank(const std::function<void(Pose&)>& change) {
-    return [change](SonarKind kind) {
-        HardTrial trial = in_tank(kind);
-        change(trial.T_world_vehicle);
-        return trial;
-    };
-}
-
 HardCase rigid_motion() {
     static const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
     return {.name = "rigid motion",
             .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
                 return motion.rotation * p + motion.translation;
             }),
-            .trial = moved_in_tank([](Pose& pose) { pose = motion * pose; }),
+            .starts_in_tank = true,
+            .move = [](SonarKind, Pose& pose) { pose = motion * pose; },
             .truth = tank_image,
             .bounds = {2e-3, 0.01},
             .truth_of_any_model = true};
@@ -145,7 +133,8 @@ HardCase in_utm() {
     scene.origin = origin;
     return {.name = "UTM, off the grid",
             .scene = scene,
-            .trial = moved_in_tank([](Pose& pose) { pose.translation += utm; }),
+            .starts_in_tank = true,
+            .move = [](SonarKind, Pose& pose) { pose.translation += utm; },
             .truth = tank_image,
             .bounds = {1e-4, 1e-3},
             .truth_of_any_model = true};
@@ -156,15 +145,13 @@ HardCase small_tank() {
     return {
         .name = "a tank of a millimetre",
         .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; }),
-        .trial =
-            [](SonarKind kind) {
-                HardTrial trial = in_tank(kind, [](SonarConfig& c) {
-                    c.range_min_m *= small;
-                    c.range_max_m *= small;
-                });
-                trial.T_world_vehicle.translation *= small;
-                return trial;
+        .starts_in_tank = true,
+        .change =
+            [](SonarConfig& c) {
+                c.range_min_m *= small;
+                c.range_max_m *= small;
             },
+        .move = [](SonarKind, Pose& pose) { pose.translation *= small; },
         .truth = tank_image,
         .bounds = {1e-4}};
 }
@@ -174,11 +161,13 @@ HardCase mirror() {
     return {.name = "mirror",
             .scene = tank_with(
                 [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); }),
-            .trial = moved_in_tank([](Pose& pose) {
-                pose.translation.y() = -pose.translation.y();
-                pose.rotation.x() = -pose.rotation.x();
-                pose.rotation.z() = -pose.rotation.z();
-            }),
+            .starts_in_tank = true,
+            .move =
+                [](SonarKind, Pose& pose) {
+                    pose.translation.y() = -pose.translation.y();
+                    pose.rotation.x() = -pose.rotation.x();
+                    pose.rotation.z() = -pose.rotation.z();
+                },
             .truth =
                 [](const HardContext& context) {
                     std::vector<float> image = tank_image(context);
@@ -203,7 +192,7 @@ HardCase permuted_triangles() {
     }
     return {.name = "permuted triangles",
             .scene = scene,
-            .trial = plain_in_tank,
+            .starts_in_tank = true,
             .truth = tank_image,
             .bounds = {1e-6},
             .truth_of_any_model = true};

@@ -6,11 +6,10 @@ namespace {
 
 /// Surface behind the sonar, or nearer than the least range: walls 5 cm away all round.
 std::vector<HardCase> dark_places() {
-    Scene narrow_box = empty_scene();
-    add_box(narrow_box, {0.26F, 0.12F, 2.95F}, {0.36F, 0.22F, 3.05F},
-            add_material(narrow_box, 0.5F));
     return {
-        {.name = "inside a solid", .scene = narrow_box, .truth = dark},
+        {.name = "inside a solid",
+         .scene = box_scene({0.26F, 0.12F, 2.95F}, {0.36F, 0.22F, 3.05F}, 0.5F),
+         .truth = dark},
         {.name = "empty scene", .scene = empty_scene(), .truth = dark},
         {.name = "empty field of view", .scene = floor_scene(30.0F, 8.0F, 0.5F), .truth = dark}};
 }
@@ -26,16 +25,9 @@ std::vector<float> sphere_law(const HardContext& context) {
 }
 
 HardCase inside_a_sphere() {
-    Scene scene = empty_scene();
-    add_sphere(scene, {0, 0, 0}, 5.0F, add_material(scene, 0.7F), 512);
     return {.name = "a closed mesh from inside",
-            .scene = scene,
-            .trial =
-                [](SonarKind kind) {
-                    HardTrial trial = over_floor(kind);
-                    trial.T_world_vehicle.translation.setZero();
-                    return trial;
-                },
+            .scene = sphere_scene({0, 0, 0}, 5.0F, 0.7F, 512),
+            .move = [](SonarKind, Pose& pose) { pose.translation.setZero(); },
             .truth = sphere_law,
             .bounds = {0.001}};
 }
@@ -45,12 +37,13 @@ HardCase inside_a_sphere() {
 HardCase beside_a_wall() {
     Scene scene = plain_floor();
     add_rectangle(scene, {-9, 0.4F, 0}, {20, 0.4F, 6}, 0);
-    return {.name = "multipath on a surface", .scene = scene, .trial = [](SonarKind kind) {
-                HardTrial trial = over_floor(
-                    kind, [](SonarConfig& c) { c.multipath.method = MultipathMethod::cluster; });
-                trial.T_world_vehicle = pitched(looks_forward(kind) ? 30.0 : 0.0, {0.0, 0.39, 0.0});
-                return trial;
-            }};
+    return {.name = "multipath on a surface",
+            .scene = scene,
+            .change = [](SonarConfig& c) { c.multipath.method = MultipathMethod::cluster; },
+            .move =
+                [](SonarKind kind, Pose& pose) {
+                    pose = pitched(looks_forward(kind) ? 30.0 : 0.0, {0.0, 0.39, 0.0});
+                }};
 }
 
 constexpr double grazing_height_m = 1.745e-3;
@@ -72,28 +65,22 @@ std::vector<float> grazing_law(const HardContext& context) {
 HardCase grazing() {
     return {.name = "grazing incidence",
             .scene = plain_floor(),
-            .trial =
-                [](SonarKind kind) {
-                    HardTrial trial = over_floor(kind);
-                    trial.T_world_vehicle = {rotation_from_rpy(0.0, 0.0, 0.1),
-                                             {0.31, 0.17, grazing_height_m}};
-                    return trial;
+            .move =
+                [](SonarKind, Pose& pose) {
+                    pose = {rotation_from_rpy(0.0, 0.0, 0.1), {0.31, 0.17, grazing_height_m}};
                 },
             .truth = grazing_law,
             .bounds = {0.01}};
 }
 
-std::function<HardTrial(SonarKind)> floor_with(const ConfigChange& change) {
-    return [change](SonarKind kind) { return over_floor(kind, change); };
-}
-
 HardCase many_bins() {
     return {.name = "8,192 range bins",
             .scene = plain_floor(),
-            .trial = floor_with([](SonarConfig& c) {
-                c.range_bins = 8192;
-                c.opening_deg = 30.0;
-            }),
+            .change =
+                [](SonarConfig& c) {
+                    c.range_bins = 8192;
+                    c.opening_deg = 30.0;
+                },
             .truth = floor_law,
             .bounds = {0.02}};
 }
@@ -101,15 +88,14 @@ HardCase many_bins() {
 /// Full azimuth in a room on all sides of the sonar over the floor. A cone keeps its own azimuth,
 /// and so does the single beam of a scanning sonar.
 HardCase full_azimuth() {
-    Scene room = empty_scene();
-    add_box(room, {-4, -4, 0}, {5, 5, 6}, add_material(room, 0.5F));
     return {.name = "azimuth of 360 degrees",
-            .scene = room,
-            .trial = floor_with([](SonarConfig& c) {
-                if (c.kind == SonarKind::echosounder || c.kind == SonarKind::scanning) return;
-                c.azimuth_deg = 360.0;
-                c.azimuth_bins = 288;
-            }),
+            .scene = box_scene({-4, -4, 0}, {5, 5, 6}, 0.5F),
+            .change =
+                [](SonarConfig& c) {
+                    if (c.kind == SonarKind::echosounder || c.kind == SonarKind::scanning) return;
+                    c.azimuth_deg = 360.0;
+                    c.azimuth_bins = 288;
+                },
             .truth = settled_reference,
             .bounds = {0.08}};
 }
@@ -132,12 +118,9 @@ HardCase seam() {
     add_rectangle(scene, {-30, -30, 0}, {30, 0, 0}, add_material(scene, 0.0F));
     return {.name = "a seam on a beam's edge",
             .scene = scene,
-            .trial =
-                [](SonarKind kind) {
-                    HardTrial trial = over_floor(kind);
-                    trial.T_world_vehicle =
-                        pitched(looks_forward(kind) ? degrees(0.5) : 0.0, {0.0, 0.0, 3.0});
-                    return trial;
+            .move =
+                [](SonarKind kind, Pose& pose) {
+                    pose = pitched(looks_forward(kind) ? degrees(0.5) : 0.0, {0.0, 0.0, 3.0});
                 },
             .truth = seam_law,
             .bounds = {0.02}};

@@ -1,7 +1,5 @@
 #include "hard/cases.h"
 #include "simulate/reference/reference.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "support/sonars.h"
 
 namespace sonarsim {
@@ -37,6 +35,12 @@ HardTrial over_floor(SonarKind kind, const ConfigChange& change) {
 HardTrial in_tank(SonarKind kind, const ConfigChange& change) {
     return at(kind, change, {looks_forward(kind) ? -2.4 : 1.7, -0.4, 1.5},
               looks_forward(kind) ? 15.0 : 0.0, 4.0);
+}
+
+HardTrial HardCase::trial(SonarKind kind) const {
+    HardTrial out = starts_in_tank ? in_tank(kind, change) : over_floor(kind, change);
+    if (move) move(kind, out.T_world_vehicle);
+    return out;
 }
 
 HardTrial with_model(HardTrial trial, ModelKind model) {
