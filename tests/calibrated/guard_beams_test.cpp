@@ -18,10 +18,8 @@ Sonar line_array_sonar(double view_azimuth_deg) {
 
 /// The expected image of a ball 2 m off in this direction.
 std::vector<float> image_of_ball(const Sonar& sonar, double azimuth_rad, double elevation_rad) {
-    Scene scene = empty_scene();
     const Eigen::Vector3d centre = 2.0 * direction_of(azimuth_rad, elevation_rad);
-    add_sphere(scene, centre.cast<float>(), 0.1F, add_material(scene, 0.4F));
-    return expected_image(sonar, scene, EngineKind::rays);
+    return expected_image(sonar, sphere_scene(centre.cast<float>(), 0.1F, 0.4F), EngineKind::rays);
 }
 
 }  // namespace

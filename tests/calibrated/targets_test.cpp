@@ -137,13 +137,8 @@ TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they
     const BallScene still({8.0, 0.3, 0.2}, 0.15, 32);
     const double expected = energy_by_rays(sonar, still.scene);
     // Spheres about the origin of their own frames, of half of the radius for the copy.
-    const auto mesh_of = [](float radius) {
-        Scene mesh = empty_scene();
-        add_sphere(mesh, {0, 0, 0}, radius, add_material(mesh, 0.8F), 32);
-        return mesh;
-    };
-    const Scene ball = mesh_of(0.15F);
-    const Scene half = mesh_of(0.075F);
+    const Scene ball = sphere_scene({0, 0, 0}, 0.15F, 0.8F, 32);
+    const Scene half = sphere_scene({0, 0, 0}, 0.075F, 0.8F, 32);
 
     Scene moving = metal_scene();
     moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
@@ -182,8 +177,7 @@ TEST_CASE("targets: where sound bends they have the echo of their apparent place
 }
 
 TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
-    Scene scene = empty_scene();
-    add_box(scene, {-1, -1, -1}, {1, 1, 1}, add_material(scene, 0.4F));
+    const Scene scene = box_scene({-1, -1, -1}, {1, 1, 1}, 0.4F);
     const TargetShape cube =
         target_shape({scene.vertices, scene.triangles, scene.triangle_material});
     CHECK(cube.triangles.size() == 12);
@@ -194,8 +188,7 @@ TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
     }
 
     for (const int sides : {16, 20, 40}) {
-        Scene round = empty_scene();
-        add_sphere(round, {3, 4, 5}, 2.0F, add_material(round, 0.4F), sides);
+        const Scene round = sphere_scene({3, 4, 5}, 2.0F, 0.4F, sides);
         // The same triangles once more, seen from the other side.
         std::vector<std::array<std::uint32_t, 3>> twice = round.triangles;
         for (const auto& [a, b, c] : round.triangles)

@@ -1,6 +1,7 @@
 #include "simulate/lambert/lambert_model.h"
 #include "simulate/paper/dropouts.h"
 #include "simulate/trace/wake.h"
+#include "support/patches.h"
 #include "support/sonars.h"
 
 // Runs the files that the examples of docs/development.md add. check_examples.py compiles them
@@ -11,13 +12,12 @@ KindOfSonar obstacle_kind();
 }
 
 TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
-    Scene scene = empty_scene();
-    add_box(scene, {7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, add_material(scene, 0.6F));
+    const Scene scene = box_scene({7.03F, -50.0F, -50.0F}, {8.0F, 50.0F, 50.0F}, 0.6F);
     const KindOfSonar kind = obstacle_kind();
     SonarConfig config = kind.keys.defaults;
     const Sonar sonar = make_sonar(kind, config, {});
-    const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), {}, {});
-    const std::vector<float> row = record_values(kind.record, config, ping.intensity, 0.0F);
+    const std::vector<float> row =
+        record_values(kind.record, config, look(sonar, scene).intensity, 0.0F);
     REQUIRE(row.size() == kind.record.values(config));
     // Surface begins at 7.03 m and ends where the cone of half-angle 7.5 degrees does.
     const auto occupied = [](float value) { return value > 0.0F; };
@@ -54,8 +54,7 @@ TEST_CASE("example of a stage: it loses a share of the beams, each by a draw of 
 TEST_CASE("example of a kind of sample: a wake absorbs and scatters") {
     // A sample 7 m ahead, 2 m of the way in the wake, loses e^(-2 a 2 m); one below the wake and a
     // wall that hides half of it change nothing else.
-    Scene scene = empty_scene();
-    add_box(scene, {4.0F, -50.0F, -50.0F}, {4.1F, 50.0F, 50.0F}, add_material(scene, 0.6F));
+    const Scene scene = box_scene({4.0F, -50.0F, -50.0F}, {4.1F, 50.0F, 50.0F}, 0.6F);
     const auto engine = make_rays_engine(scene);
     const Wake wake{{Eigen::Vector3d(3, -1, -1), Eigen::Vector3d(5, 1, 1)}, 0.3F, 0.02F, 0.25};
     Samples samples;
@@ -65,10 +64,7 @@ TEST_CASE("example of a kind of sample: a wake absorbs and scatters") {
     add_wake(wake, SampleKind::particle, *engine, {}, samples);
     CHECK(samples.items[0].strength == approx(std::exp(-2 * 0.3 * 2)));
     CHECK(samples.items[1].strength == 1.0F);
-    double section_m2 = 0.0;
-    for (std::size_t k = 2; k < samples.items.size(); ++k)
-        section_m2 += samples.items[k].area_m2;
-    CHECK(section_m2 == approx(0.02 * 1 * 2 * 2));
+    CHECK(area_of(std::span(samples.items).subspan(2)) == approx(0.02 * 1 * 2 * 2));
 }
 
 TEST_CASE("example of an echo model: the energy of a floor under a cone") {
@@ -76,13 +72,11 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
     // half-angle a is R / H^2 times the integral of cos^3 dOmega, R / H^2 (pi / 2) (1 - cos^4 a).
     constexpr double H = 4.0;
     constexpr double R = 0.6;
-    Scene scene = floor_scene(100.0F, 0.0F, static_cast<float>(R));
-    const auto engine = make_rays_engine(scene);
-    SonarConfig config = default_sonar(SonarKind::echosounder);
-    Sonar sonar = make_sonar(config, {0.005});
+    const Scene scene = floor_scene(100.0F, 0.0F, static_cast<float>(R));
+    Sonar sonar = make_sonar(default_sonar(SonarKind::echosounder), {0.005});
     sonar.settings.model = std::make_shared<LambertModel>();
-    const Ping ping = render_ping(sonar, scene, *engine, {.translation = {0, 0, H}}, {});
-    const double energy = total(ping.intensity);
+    const Ping ping = look(sonar, scene, {.translation = {0, 0, H}});
     const double cosine = std::cos(radians(15.0));
-    CHECK(energy == approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
+    CHECK(total(ping.intensity) ==
+          approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "simulate/visibility/view.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"

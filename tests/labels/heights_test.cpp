@@ -1,4 +1,3 @@
-#include "simulate/labels/labels.h"
 #include "support/labelled.h"
 
 namespace {

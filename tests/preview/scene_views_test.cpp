@@ -1,5 +1,4 @@
 #include "run/preview/preview.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/test.h"
 
 using Eigen::Vector2d;
@@ -31,18 +30,17 @@ BeamOutline mark(const Vector3d& at, Rgb colour) {
 }
 
 /// The pixels of a colour, as x + 1000 y.
-std::vector<int> painted(Picture& picture, Rgb colour) {
+std::vector<int> painted(const Picture& picture, Rgb colour) {
     std::vector<int> pixels;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            if (picture.row(y)[x] == colour) pixels.push_back(x + 1000 * y);
-        }
+    for (int k = 0; k < std::ssize(picture.pixels); ++k) {
+        if (picture.pixels[k] == colour)
+            pixels.push_back(k % picture.width + k / picture.width * 1000);
     }
     return pixels;
 }
 
 /// The one pixel that has the colour.
-Vector2d place_of(Picture& picture, Rgb colour) {
+Vector2d place_of(const Picture& picture, Rgb colour) {
     const std::vector<int> places = painted(picture, colour);
     REQUIRE(places.size() == 1);
     return {places[0] % 1000, places[0] / 1000};

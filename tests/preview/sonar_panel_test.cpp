@@ -45,17 +45,10 @@ TEST_CASE("sonar panel: a fan fits, and an echo to port lies to the left at its 
     const int x = static_cast<int>(0.5 * frame.width - 6.25 * std::sin(azimuth) / frame.pixel_m);
     const int y = static_cast<int>((10.0 - 6.25 * std::cos(azimuth)) / frame.pixel_m);
     // Amber is the redder the brighter, rings and bearings are blue. A bin is 4 pixels long.
-    int brightest_x = 0;
-    int brightest_y = 0;
-    for (int row = 0; row < picture.height; ++row) {
-        for (int column = 0; column < picture.width; ++column) {
-            if (picture.row(row)[column].r <= picture.row(brightest_y)[brightest_x].r) continue;
-            brightest_x = column;
-            brightest_y = row;
-        }
-    }
-    CHECK(std::abs(brightest_x - x) <= 3);
-    CHECK(std::abs(brightest_y - y) <= 3);
+    const auto brightest =
+        std::ranges::max_element(picture.pixels, {}, &Rgb::r) - picture.pixels.begin();
+    CHECK(std::abs(brightest % picture.width - x) <= 3);
+    CHECK(std::abs(brightest / picture.width - y) <= 3);
     // Rings are at 2, 4, 6 and 8 m. Bearings are drawn every 10 degrees: none at -5.
     const double between = radians(-5.0);
     const auto at = [&](double range) {

@@ -224,8 +224,7 @@ TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the
         scene.sound_profile = linear_profile(g);
         Sonar sonar = multibeam(120.0, 240);
         sonar.sound_profile = scene.sound_profile;
-        const Ping ping = render_ping(sonar, scene, *make_rays_engine(scene), {}, {}, {});
-        const auto soundings = find_soundings(sonar, {}, ping);
+        const auto soundings = find_soundings(sonar, {}, look(sonar, scene));
         double outermost = 0.0;
         for (std::size_t j = 0; j < soundings.size(); ++j) {
             REQUIRE(!std::isnan(soundings[j].range_m));
@@ -252,10 +251,8 @@ TEST_CASE("soundings of a sonar that rolls and drives in a ping lie on the flat 
             scene.sound_profile = linear_profile(-0.5);
             sonar.sound_profile = scene.sound_profile;
         }
-        const auto engine = engine_of(scene, EngineKind::rays);
-        const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
         int found = 0;
-        for (const Sounding& sounding : find_soundings(sonar, {}, ping, motion)) {
+        for (const Sounding& sounding : find_soundings(sonar, {}, look(sonar, scene), motion)) {
             // Surface that enters the sector in the ping is missing.
             if (std::isnan(sounding.range_m)) continue;
             ++found;

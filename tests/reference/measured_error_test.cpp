@@ -23,6 +23,15 @@ std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int 
         [&] { return measure_errors(mission, assembly, *make_engine(mission, assembly)); });
 }
 
+/// The reference of the first sonar at the fourth pose, by this many rays.
+Reference reference_at_3(const Mission& mission, std::uint64_t rays) {
+    const Assembly assembly = small_assembly(mission, 7);
+    const Sonar& sonar = assembly.sonars[0];
+    return cast_reference(Caster(assembly.scene), assembly.scene, sonar,
+                          sensor_pose(sonar, assembly.trajectory[3].T_world_vehicle, 3),
+                          {.rays_per_bin = 1e9, .rays_max = rays});
+}
+
 }  // namespace
 
 TEST_CASE("measured errors: the same for any number of threads, and below the goal of the rays") {
@@ -61,11 +70,7 @@ TEST_CASE("measured errors: most bins of a fine sonar that hold surface count") 
     fine.azimuth_deg = 4.0;
     fine.azimuth_bins = 40;
     fine.range_bins = static_cast<int>((fine.range_max_m - fine.range_min_m) / 0.001);
-    const Assembly assembly = small_assembly(mission, 7);
-    const Sonar& sonar = assembly.sonars[0];
-    const Pose pose = sensor_pose(sonar, assembly.trajectory[3].T_world_vehicle, 3);
-    const Reference truth = cast_reference(Caster(assembly.scene), assembly.scene, sonar, pose,
-                                           {.rays_per_bin = 1e9, .rays_max = 1'000'000});
+    const Reference truth = reference_at_3(mission, 1'000'000);
     const auto occupied =
         std::ranges::count_if(truth.intensity, [](float value) { return value > 0.0F; });
     CHECK(occupied > 1000);
@@ -143,14 +148,8 @@ TEST_CASE("measured errors: cells larger than bins leave the choice of bins to t
     mission.sensors[0].noise.range_lambda_m = 0.01;
     mission.sensors[0].noise.scatterer_m = 0.2;
     mission.sensors[0].range_bins = 480;
-    const Assembly assembly = small_assembly(mission, 7);
-    const Caster caster(assembly.scene);
-    const Sonar& sonar = assembly.sonars[0];
-    const Pose pose = sensor_pose(sonar, assembly.trajectory[3].T_world_vehicle, 3);
-    const auto scored = [&](std::uint64_t rays) {
-        const Reference truth = cast_reference(caster, assembly.scene, sonar, pose,
-                                               {.rays_per_bin = 1e9, .rays_max = rays});
-        return static_cast<double>(std::ranges::count(truth.scored, 1));
+    const auto scored = [&](std::uint64_t rays) -> double {
+        return total(reference_at_3(mission, rays).scored);
     };
     const double few = scored(200'000);
     CHECK(few > 200.0);

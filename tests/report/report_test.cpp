@@ -164,23 +164,18 @@ TEST_CASE("a goal is met at the worst pose, or missed") {
 }
 
 TEST_CASE("the yardstick rays are spread evenly over the view") {
-    View view{radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03};
-    SUBCASE("fan") {}
-    SUBCASE("sides") {
-        view.shape = ViewShape::port_starboard;
-        view.beams = 2;
+    for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
+        const View view =
+            with_shape({radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03}, shape);
+        const std::vector<Eigen::Vector3f> rays = view_rays(view);
+        CAPTURE(static_cast<int>(shape));
+        CHECK(rays.size() == view_rays_count);
+        CHECK(std::ranges::all_of(rays, [&](const Eigen::Vector3f& d) {
+            return std::fabs(d.norm() - 1.0F) < 1e-6F && beam_of(view, d) >= 0;
+        }));
+        CHECK(std::ranges::count_if(rays, [](const Eigen::Vector3f& d) { return d.y() > 0.0F; }) ==
+              view_rays_count / 2);
     }
-    SUBCASE("cone") {
-        view.shape = ViewShape::cone;
-        view.elevation_rad = view.azimuth_rad;
-    }
-    const std::vector<Eigen::Vector3f> rays = view_rays(view);
-    CHECK(rays.size() == view_rays_count);
-    CHECK(std::ranges::all_of(rays, [&](const Eigen::Vector3f& d) {
-        return std::fabs(d.norm() - 1.0F) < 1e-6F && beam_of(view, d) >= 0;
-    }));
-    CHECK(std::ranges::count_if(rays, [](const Eigen::Vector3f& d) { return d.y() > 0.0F; }) ==
-          view_rays_count / 2);
 }
 
 TEST_CASE("multipath rows of a corner are sane, for each sonar that has multipath") {

@@ -1,6 +1,4 @@
 #include "simulate/product/bottom.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
 namespace {
@@ -21,12 +19,10 @@ double detected_depth(const Sonar& sonar, const Ping& ping) {
 TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its depth on") {
     // v . n = H / r at every point of the bottom; the cone of half-angle psi ends at H / cos psi.
     constexpr float R = 0.6F;
-    Scene scene = floor_scene(100.0F, 0.0F, R);
-    const auto engine = make_rays_engine(scene);
+    const Scene scene = floor_scene(100.0F, 0.0F, R);
     const Sonar sonar = make_sonar(echosounder(), {});
     for (const double H : {2.003, 5.0, 9.017}) {
-        const Ping ping =
-            render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0, 0, H}}, {});
+        const Ping ping = look(sonar, scene, {.translation = {0, 0, H}});
         REQUIRE(ping.beams == 1);
         const double bin_m = sonar.settings.view.bin_m();
         const double end = H / std::cos(radians(15.0));
@@ -44,16 +40,15 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
 TEST_CASE("echosounder: range noise does not fade") {
     // A bottom within one scatterer cell: each ping draws one w, and the echo keeps its strength
     // wherever it lands; an imaging sonar's would be weaker by exp(-w / lambda).
-    Scene scene = floor_scene(100.0F, 0.0F, 0.8F);
+    const Scene scene = floor_scene(100.0F, 0.0F, 0.8F);
     SonarConfig config = echosounder();
     config.opening_deg = 1.0;
     config.noise.range_lambda_m = 0.3;
     config.noise.scatterer_m = 1000.0;
     const Sonar sonar = make_sonar(config, {});
-    const auto engine = make_rays_engine(scene);
     double latest = 0.0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *engine, {.translation = {0, 0, 3}}, {seed, 0});
+        const Ping ping = look(sonar, scene, {.translation = {0, 0, 3}}, {seed, 0});
         CHECK(std::ranges::max(ping.intensity) == approx(0.8).epsilon(1e-3));
         latest = std::max(latest, detected_depth(sonar, ping) - 3.0);
     }

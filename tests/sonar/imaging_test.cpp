@@ -3,10 +3,6 @@
 
 namespace {
 
-Ping look(const Scene& scene, const Sonar& sonar, const Pose& pose) {
-    return render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
-}
-
 /// sum |image - expected| / sum expected over the bins where expected(i, j) >= 0.
 template <class Expected>
 double relative_l1(const Ping& ping, Expected expected) {
@@ -39,9 +35,8 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
     constexpr float R = 0.6F;
     constexpr double H = 2.0;
     constexpr double pitch_deg = 25.0;
-    Scene scene = floor_scene(100.0F, 0.0F, R);
     const Sonar sonar = noise_free(small_imaging());
-    const Ping ping = look(scene, sonar, pitched(pitch_deg, {0.0, 0.0, H}));
+    const Ping ping = look(sonar, floor_scene(100.0F, 0.0F, R), pitched(pitch_deg, {0.0, 0.0, H}));
 
     // Straight ahead the field of view reaches the floor from H / sin(p + 6) to H / sin(p - 6).
     const int middle = ping.beams / 2;
@@ -70,14 +65,12 @@ TEST_CASE("a sphere agrees with its closed form") {
     constexpr float R = 0.9F;
     constexpr double D = 4.0;
     constexpr double a = 0.403;
-    Scene scene = empty_scene();
-    add_sphere(scene, {D, 0, 0}, a, add_material(scene, R), 512);
     SonarConfig config = small_imaging();
     config.azimuth_deg = 20.0;
     config.elevation_deg = 20.0;
     set_range(config, 3.5, 4.1, 60);
     const Sonar sonar = noise_free(config, 0.01);
-    const Ping ping = look(scene, sonar, Pose{});
+    const Ping ping = look(sonar, sphere_scene({D, 0, 0}, a, R, 512));
     const int first_bin = bin_at(sonar, D - a);
     const int last_bin = bin_at(sonar, std::sqrt(D * D - a * a));
     CHECK(relative_l1(ping, [&](int i, int j) {
@@ -97,21 +90,21 @@ TEST_CASE("noise is a function of seed, sensor and ping; without it the seed doe
     const Scene scene = tank();
     const Pose pose = pitched(12.0, {-3.0, 0.0, 1.5});
     const auto engine = make_rays_engine(scene);
-    const auto look = [&](const Sonar& sonar, const PingKey& key) {
+    const auto image = [&](const Sonar& sonar, const PingKey& key) {
         return render_ping(sonar, scene, *engine, pose, key).intensity;
     };
     const Sonar clean = noise_free(small_imaging());
-    CHECK(look(clean, {1, 5}) == look(clean, {2, 6}));
+    CHECK(image(clean, {1, 5}) == image(clean, {2, 6}));
 
     SonarConfig config = small_imaging();
     config.noise = {0.05, 0.02, 0.1, 0.2, true, 0.0};
     const Sonar noisy = make_sonar(config, {});
-    const std::vector<float> image = look(noisy, {0, 5});
-    CHECK(image == look(noisy, {0, 5}));
-    CHECK(image != look(noisy, {1, 5}));
-    CHECK(image != look(noisy, {0, 6}));
+    const std::vector<float> first = image(noisy, {0, 5});
+    CHECK(first == image(noisy, {0, 5}));
+    CHECK(first != image(noisy, {1, 5}));
+    CHECK(first != image(noisy, {0, 6}));
     config.name = "another";
-    CHECK(image != look(make_sonar(config, {}), {0, 5}));
+    CHECK(first != image(make_sonar(config, {}), {0, 5}));
 }
 
 TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") {

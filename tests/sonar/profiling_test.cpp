@@ -5,14 +5,12 @@
 
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
     // The middle of a run of whole bins is off by 0.20 bins on average.
-    Scene scene = floor_scene(200.0F, 0.0F, 0.5F);
-    const auto engine = make_rays_engine(scene);
+    const Scene scene = floor_scene(200.0F, 0.0F, 0.5F);
     const Sonar sonar = noise_free(default_sonar(SonarKind::profiling));
     const double bin_m = sonar.settings.view.bin_m();
     for (const double H : {8.0, 12.37, 20.02, 30.3}) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, 1.0), {10.0, -5.0, H}};
-        const Ping ping = render_ping(sonar, scene, *engine, pose, {});
-        const std::vector<Sounding> soundings = find_soundings(sonar, pose, ping);
+        const auto soundings = find_soundings(sonar, pose, look(sonar, scene, pose));
         REQUIRE(soundings.size() == 480);
         double square = 0.0;
         double mean = 0.0;
@@ -37,8 +35,7 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
 TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(sanitized)) {
     // Range noise delays an echo and dims it: exp(-w / lambda) twice gives a mean of half of
     // lambda, 2 cm. Under strong additive noise some are lost, of which few may pass for good.
-    Scene scene = floor_scene(200.0F, 0.0F, 0.15F);
-    const auto engine = make_rays_engine(scene);
+    const Scene scene = floor_scene(200.0F, 0.0F, 0.15F);
     for (const double add_sigma : {0.01, 0.05}) {
         SonarConfig config = default_sonar(SonarKind::profiling);
         config.range_max_m = 30.0;
@@ -54,8 +51,7 @@ TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(sa
         for (std::uint32_t ping = 0; ping < 30; ++ping) {
             const double H = 12.0 + 0.0131 * ping;
             const Pose pose{.translation = {0.3 * ping, 0.0, H}};
-            const std::vector<Sounding> soundings =
-                find_soundings(sonar, pose, render_ping(sonar, scene, *engine, pose, {1, ping}));
+            const auto soundings = find_soundings(sonar, pose, look(sonar, scene, pose, {1, ping}));
             for (std::size_t j = 0; j < soundings.size(); ++j) {
                 const double off = soundings[j].range_m - H / std::cos(sonar.beam_azimuths_rad[j]);
                 const bool is_lost = std::fabs(off) > 0.5;

@@ -1,7 +1,4 @@
 #include "simulate/product/scan.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
 
 namespace {
@@ -15,10 +12,8 @@ SonarConfig scanning_sonar() {
 
 /// A sphere of 0.2 m about (3, 0, 0) turned by `azimuth_deg` to port.
 Scene sphere_at(double azimuth_deg) {
-    Scene scene = empty_scene();
     const Eigen::Vector3d centre = 3.0 * direction_of(radians(azimuth_deg), 0.0);
-    add_sphere(scene, centre.cast<float>(), 0.2F, add_material(scene, 0.5F));
-    return scene;
+    return sphere_scene(centre.cast<float>(), 0.2F, 0.5F);
 }
 
 /// The first bin that echoes; -1 for none.

@@ -1,6 +1,5 @@
 #include "simulate/product/sidescan.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/rays/rays_engine.h"
+
 #include "support/sonars.h"
 
 namespace {
@@ -20,10 +19,7 @@ Scene flat_bottom() {
     return floor_scene(100.0F, 0.0F, R);
 }
 
-Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
-    const Pose pose{rotation_from_rpy(0.0, 0.0, yaw), {0.0, 0.0, H}};
-    return render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
-}
+const Pose above_bottom{.translation = {0.0, 0.0, H}};
 
 }  // namespace
 
@@ -31,9 +27,8 @@ TEST_CASE(
     "sidescan: a flat bottom first returns at its altitude, then I = R H / r, on both sides") {
     // v . n = H / r everywhere, whatever the weights. The swath of 170 degrees reaches
     // H / cos(85 deg) = 58 m, beyond the range.
-    const Scene scene = flat_bottom();
     const Sonar sonar = make_sonar(sidescan(), {});
-    const Ping ping = look(scene, sonar);
+    const Ping ping = look(sonar, flat_bottom(), above_bottom);
     REQUIRE(ping.beams == 2);
     const int first = bin_at(sonar, H);
     for (int side = 0; side < 2; ++side) {
@@ -57,7 +52,7 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
     add_box(scene, {-1.0F, 5.0F, 0.0F}, {1.0F, static_cast<float>(y), static_cast<float>(h)},
             add_material(scene, 0.9F));
     const Sonar sonar = make_sonar(sidescan(), {});
-    const Ping ping = look(scene, sonar);
+    const Ping ping = look(sonar, scene, above_bottom);
     const double r = std::sqrt(y * y + (H - h) * (H - h));
     const double length = r * h / (H - h);
     int first = bin_at(sonar, r) + 1;
@@ -75,11 +70,15 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
 }
 
 TEST_CASE("sidescan: a target to port is in the left half only; turned round, in the right") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {0.0F, 8.0F, 1.0F}, 0.5F, add_material(scene, 1.0F), 64);
+    const Scene scene = sphere_scene({0.0F, 8.0F, 1.0F}, 0.5F, 1.0F, 64);
     const Sonar sonar = make_sonar(sidescan(), {});
-    const std::vector<float> there = sidescan_row(sonar.config, look(scene, sonar));
-    const std::vector<float> back = sidescan_row(sonar.config, look(scene, sonar, pi));
+    const auto row = [&](double yaw) {
+        const Pose pose{rotation_from_rpy(0.0, 0.0, yaw), above_bottom.translation};
+        return record_values(kind_of(SonarKind::sidescan).record, sonar.config,
+                             look(sonar, scene, pose).intensity, 0.0F);
+    };
+    const std::vector<float> there = row(0.0);
+    const std::vector<float> back = row(pi);
     const std::size_t n = there.size() / 2;
     REQUIRE(n == 510);  // ten columns from nadir to range_min, 50 cm
     float left = 0.0F;

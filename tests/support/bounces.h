@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/pose.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"

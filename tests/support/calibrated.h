@@ -1,8 +1,6 @@
 #pragma once
 
 #include "simulate/calibrated/model.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
 
 namespace sonarsim::test {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "simulate/labels/labels.h"
-#include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/view.h"
 #include "support/sonars.h"
 

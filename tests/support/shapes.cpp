@@ -117,6 +117,18 @@ void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float hei
     }
 }
 
+Scene sphere_scene(const Eigen::Vector3f& centre, float radius, float reflection, int n) {
+    Scene scene = empty_scene();
+    add_sphere(scene, centre, radius, add_material(scene, reflection), n);
+    return scene;
+}
+
+Scene box_scene(const Eigen::Vector3f& min, const Eigen::Vector3f& max, float reflection) {
+    Scene scene = empty_scene();
+    add_box(scene, min, max, add_material(scene, reflection));
+    return scene;
+}
+
 Scene tank() {
     Scene scene = empty_scene();
     const std::uint32_t concrete = add_material(scene, 0.5F);

@@ -49,6 +49,10 @@ void add_sphere(Scene& scene, const Eigen::Vector3f& centre, float radius, std::
 void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float height,
               std::uint32_t material, int n = 64);
 
+/// Scenes of such a sphere or box alone, of one material.
+Scene sphere_scene(const Eigen::Vector3f& centre, float radius, float reflection, int n = 256);
+Scene box_scene(const Eigen::Vector3f& min, const Eigen::Vector3f& max, float reflection);
+
 /// A tank of 8 x 6 x 3 m, floor at z = 0, with a pole, a box, a crate and a sphere in it.
 Scene tank();
 

@@ -43,6 +43,12 @@ inline double bin_centre(const Sonar& sonar, int i) {
     return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
 }
 
+/// A ping by rays.
+inline Ping look(const Sonar& sonar, const Scene& scene, const Pose& T_world_vehicle = {},
+                 const PingKey& key = {}, const Terms& terms = {}) {
+    return render_ping(sonar, scene, *make_rays_engine(scene), T_world_vehicle, key, terms);
+}
+
 /// A ping of a sonar whose bins are all equal.
 inline Ping even_ping(const Sonar& sonar, float intensity) {
     const View& view = sonar.settings.view;
@@ -60,11 +66,6 @@ void change_paper_model(Sonar& sonar, Change change) {
         std::make_shared<PaperModel>(dynamic_cast<const PaperModel&>(*sonar.settings.model));
     change(*model);
     sonar.settings.model = std::move(model);
-}
-
-/// A side-scan ping as a row of the waterfall.
-inline std::vector<float> sidescan_row(const SonarConfig& config, const Ping& ping) {
-    return record_values(kind_of(SonarKind::sidescan).record, config, ping.intensity, 0.0F);
 }
 
 }  // namespace sonarsim::test

@@ -39,6 +39,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "simulate/visibility/make_engine.h"
+#include "simulate/visibility/view.h"
 #include "support/approx.h"
 #include "support/shapes.h"
 
@@ -117,6 +118,14 @@ auto integral(double from, double to, int steps, const Function& function) {
 /// A pose that looks down by an angle.
 inline Pose pitched(double pitch_deg, const Eigen::Vector3d& position = {0.0, 0.0, 0.0}) {
     return {rotation_from_rpy(0.0, radians(pitch_deg), 0.0), position};
+}
+
+/// A fan of all its beams, the two sides of it, or a cone as wide as it.
+inline View with_shape(View view, ViewShape shape) {
+    view.shape = shape;
+    if (shape != ViewShape::fan) view.beams = shape == ViewShape::cone ? 1 : 2;
+    if (shape == ViewShape::cone) view.elevation_rad = view.azimuth_rad;
+    return view;
 }
 
 inline std::unique_ptr<VisibilityEngine> engine_of(const Scene& scene, EngineKind type) {

@@ -55,11 +55,9 @@ TEST_CASE("clusters keep their limits, and every sample is in one") {
 
 TEST_CASE("epsilon 0 is the exact method") {
     SonarConfig config = small_imaging();
-    const Scene scene = tank();
-    const auto engine = make_rays_engine(scene);
     const auto render = [&](MultipathMethod method, int epsilon) {
         config.multipath = {method, epsilon, 15.0};
-        return render_ping(make_sonar(config, {}), scene, *engine, tank_poses()[0], {}).intensity;
+        return look(make_sonar(config, {}), tank(), tank_poses()[0]).intensity;
     };
     CHECK(render(MultipathMethod::exact, 5) == render(MultipathMethod::cluster, 0));
     CHECK(render(MultipathMethod::exact, 5) != render(MultipathMethod::none, 0));

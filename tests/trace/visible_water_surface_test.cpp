@@ -109,7 +109,9 @@ TEST_CASE("water surface: the second bottom echo of an echosounder and of a side
     const View sides = with_shape({radians(120.0), radians(4.0), 0.5, 20.0, 400, 2, 0.03},
                                   ViewShape::port_starboard);
     const Pose down = pitched(90.0, {0.0, 0.0, h});
-    for (const auto& [of, epsilon] : {std::pair{view, 0}, {view, 5}, {sides, 0}, {sides, 5}}) {
+    for (const auto& trial : {std::pair{view, 0}, {view, 5}, {sides, 0}, {sides, 5}}) {
+        const View& of = trial.first;
+        const int epsilon = trial.second;
         CAPTURE_ALL(static_cast<int>(of.shape), epsilon);
         const auto found = find(scene, of, clusters_of(epsilon), down);
         REQUIRE(found.bounces.size() > 10);

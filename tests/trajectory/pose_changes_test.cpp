@@ -1,4 +1,3 @@
-#include "core/pose.h"
 #include "input/trajectory/patterns.h"
 #include "support/test.h"
 

@@ -4,12 +4,6 @@
 
 namespace {
 
-/// The distance of a facet's plane along a ray.
-float distance_of(const Facet& facet, const Eigen::Vector3f& origin,
-                  const Eigen::Vector3f& direction) {
-    return facet.normal.dot(facet.vertex - origin) / facet.normal.dot(direction);
-}
-
 /// A slanted square, cut into n x n x 2 triangles.
 void add_slanted(Scene& scene, int n) {
     const Eigen::Vector3f middle(7.3F, -4.1F, 2.7F);
@@ -45,8 +39,7 @@ int met_below(const Caster& caster, std::uint32_t count, int rays) {
 // Embree took the sign of such a component for its octant, but divided by +1e-18: rays of its
 // packet passed through the scene.
 TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);
+    const Scene scene = sphere_scene({0, 0, -8}, 1.0F, 1.0F);
     const Caster caster(scene);
     for (const float tiny : {-4.84e-19F, -1e-30F, -0.0F, 4.84e-19F, -1e-17F}) {
         std::vector<Eigen::Vector3f> directions{{tiny, -0.002F, -1}};
@@ -64,12 +57,10 @@ TEST_CASE("caster: a ray with a component near zero does not disturb its neighbo
 
 TEST_CASE("caster: scenes with the same first file share its tree and have their own hits") {
     const auto scene_with = [](float x) {
-        Scene scene = empty_scene();
-        const std::uint32_t material = add_material(scene, 1.0F);
-        add_sphere(scene, {0, 0, -8}, 1.0F, material, 256);
+        Scene scene = sphere_scene({0, 0, -8}, 1.0F, 1.0F);
         scene.first_file_triangles = scene.triangles.size();
         scene.first_file_vertices = scene.vertices.size();
-        add_sphere(scene, {x, 0, -7}, 0.5F, material, 64);
+        add_sphere(scene, {x, 0, -7}, 0.5F, 0, 64);
         return scene;
     };
     std::vector<Eigen::Vector3f> directions;
@@ -116,8 +107,7 @@ TEST_CASE("caster: of facets that coincide the first counts, on every processor"
 }
 
 TEST_CASE("caster: a ray meets a facet up to the distance of its plane and no further") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {3, -2, 1}, 1.0F, add_material(scene, 1.0F), 64);
+    const Scene scene = sphere_scene({3, -2, 1}, 1.0F, 1.0F, 64);
     const Caster caster(scene);
     const Eigen::Vector3f origin(-4.0F, 1.5F, 2.5F);
     Draws draws(1);
@@ -131,7 +121,9 @@ TEST_CASE("caster: a ray meets a facet up to the distance of its plane and no fu
         };
         const std::uint32_t facet = met(100.0F);
         REQUIRE(facet != Caster::nothing);
-        const float distance = distance_of(caster.facet(facet), origin, direction);
+        const Facet plane = caster.facet(facet);
+        const float distance =
+            plane.normal.dot(plane.vertex - origin) / plane.normal.dot(direction);
         CHECK(met(distance) == facet);
         CHECK(met(std::nextafter(distance, 0.0F)) == Caster::nothing);
     }

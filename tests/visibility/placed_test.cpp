@@ -7,9 +7,7 @@ namespace {
 
 /// A sphere of radius 1 m as a mesh that is placed.
 Scene unit_sphere() {
-    Scene shape = empty_scene();
-    add_sphere(shape, {0, 0, 0}, 1.0F, add_material(shape, 1.0F), 512);
-    return shape;
+    return sphere_scene({0, 0, 0}, 1.0F, 1.0F, 512);
 }
 
 /// A scene that holds only copies of a sphere.
@@ -95,8 +93,7 @@ TEST_CASE("copies: next to a body that moves both are met") {
     const std::vector<Eigen::Affine3d> places{placed({6.0, 0.0, 0.0}, 1.0, 0.0),
                                               placed({6.0, 4.0, 0.0}, 1.0, 0.0)};
     Scene scene = spheres(places, Eigen::Vector3d::Zero());
-    Scene box = empty_scene();
-    add_box(box, {-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, 0);
+    const Scene box = box_scene({-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, 1.0F);
     scene.instances.emplace_back("box");
     scene.instance_classes.emplace_back("");
     scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
@@ -126,8 +123,7 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
         Scene placed_scene = own;
         std::vector<Pose> poses;
         for (int k = 0; k < 6; ++k) {
-            Scene shape = empty_scene();
-            add_sphere(shape, {0, 0, 0}, 0.4F, 0, 24);
+            Scene shape = sphere_scene({0, 0, 0}, 0.4F, 1.0F, 24);
             if (k % 3 == 0) add_box(shape, {-0.3F, -0.5F, -0.2F}, {0.3F, 0.5F, 0.9F}, 0);
             const auto instance = static_cast<std::uint32_t>(own.instances.size());
             const double scale = k % 2 == 0 ? 1.0 : 0.5 + 0.2 * k;
@@ -138,24 +134,23 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
             const auto first = static_cast<std::uint32_t>(own.vertices.size());
             for (const Eigen::Vector3f& vertex : shape.vertices)
                 own.vertices.emplace_back((T_local * vertex.cast<double>()).cast<float>());
-            for (const TriangleCorners& t : shape.triangles) {
-                own.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-                own.triangle_material.push_back(0);
-                own.triangle_instance.push_back(instance);
-            }
+            for (const auto& [a, b, c] : shape.triangles)
+                own.triangles.push_back({first + a, first + b, first + c});
+            own.triangle_material.resize(own.triangles.size(), 0);
+            own.triangle_instance.resize(own.triangles.size(), instance);
             for (Scene* scene : {&own, &placed_scene}) {
                 scene->instances.emplace_back("thing");
                 scene->instance_classes.emplace_back("");
             }
-            const std::vector<std::uint32_t> materials(shape.triangles.size(), 0);
             if (k % 2 == 0) {
                 placed_scene.bodies.push_back(
-                    {instance, shape.vertices, shape.triangles, materials});
+                    {instance, shape.vertices, shape.triangles, shape.triangle_material});
                 poses.push_back({Eigen::Quaterniond(T.linear()), T.translation()});
             } else {
                 placed_scene.copies.push_back(
                     {static_cast<std::uint32_t>(placed_scene.shared_meshes.size()), instance, T});
-                placed_scene.shared_meshes.push_back({shape.vertices, shape.triangles, materials});
+                placed_scene.shared_meshes.push_back(
+                    {shape.vertices, shape.triangles, shape.triangle_material});
             }
         }
         const auto sums = [&](const VisibilityEngine& engine) {

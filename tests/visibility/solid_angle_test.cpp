@@ -17,22 +17,10 @@ Scene room_with_poles() {
 }
 
 View view_of(ViewShape shape) {
-    View view{radians(70.0), radians(30.0), 0.0, 20.0, 256, 64, 0.03, shape};
-    if (shape == ViewShape::port_starboard) {
-        view.elevation_rad = radians(2.0);
-        view.azimuth_rad = radians(160.0);
-        view.beams = 2;
-    } else if (shape == ViewShape::cone) {
-        view.elevation_rad = view.azimuth_rad;
-        view.beams = 1;
-    }
-    return view;
-}
-
-/// Solid angle of azimuth times the integral over elevation. For a cone: 2 pi (1 - cos).
-double solid_angle(const View& view) {
-    if (view.shape == ViewShape::cone) return 2.0 * pi * (1.0 - std::cos(0.5 * view.azimuth_rad));
-    return 2.0 * view.azimuth_rad * std::sin(0.5 * view.elevation_rad);
+    const bool sides = shape == ViewShape::port_starboard;
+    const double azimuth_rad = radians(sides ? 160.0 : 70.0);
+    const double elevation_rad = radians(sides ? 2.0 : 30.0);
+    return with_shape({azimuth_rad, elevation_rad, 0.0, 20.0, 256, 64, 0.03}, shape);
 }
 
 }  // namespace
@@ -46,7 +34,11 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
         for (const EngineKind type : {EngineKind::rays, EngineKind::strips}) {
             const View view = view_of(shape);
             const Samples samples = engine_of(scene, type)->visible_surface(view, T_world_sensor);
-            const double share = filled_sr(samples) / solid_angle(view);
+            // Azimuth times the integral over elevation; for a cone 2 pi (1 - cos).
+            const double whole = shape == ViewShape::cone
+                                     ? 2.0 * pi * (1.0 - std::cos(0.5 * view.azimuth_rad))
+                                     : 2.0 * view.azimuth_rad * std::sin(0.5 * view.elevation_rad);
+            const double share = filled_sr(samples) / whole;
             CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), share);
             CHECK(std::fabs(share - 1.0) < 0.005);
         }

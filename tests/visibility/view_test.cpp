@@ -4,10 +4,8 @@
 
 TEST_CASE("the field of view in float agrees with beam_of") {
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
-        View view{radians(100.0), radians(40.0), 0.5, 10.0, 512, 128, 0.03};
-        view.shape = shape;
-        if (shape == ViewShape::port_starboard) view.beams = 2;
-        if (shape == ViewShape::cone) view.beams = 1;
+        const View view =
+            with_shape({radians(100.0), radians(40.0), 0.5, 10.0, 512, 128, 0.03}, shape);
         const BeamLocator field(view);
         int differ = 0;
         for (int i = 0; i < 20000; ++i) {

@@ -27,10 +27,7 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 TEST_CASE("strips: two materials that meet along an azimuth share the beam as they lie") {
     // A level floor of one material left of an azimuth and of another one right of it: at each
     // range the left part has the share of the beam left of that azimuth.
-    View view = fan_view();
-    view.azimuth_rad = radians(2.0);
-    view.elevation_rad = radians(60.0);
-    view.beams = 1;
+    const View view = fan_view(2.0, 60.0, 1);
     Draws draws(31);
     for (int k = 0; k < 40; ++k) {
         const float share = k == 0 ? 0.5F : draws.between(0.05F, 0.95F);
@@ -60,8 +57,7 @@ TEST_CASE("strips: two materials that meet along an azimuth share the beam as th
 
 TEST_CASE("strips: a corner that enters the view within a beam is seen") {
     // A leaf below the view whose tip, a fifth of a beam wide, reaches into it.
-    View view = fan_view();
-    view.elevation_rad = radians(2.0);
+    const View view = fan_view(60.0, 2.0);
     Draws draws(32);
     for (int k = 0; k < 40; ++k) {
         CAPTURE(k);
@@ -81,8 +77,7 @@ TEST_CASE("strips: a corner that enters the view within a beam is seen") {
 TEST_CASE("strips: a corner of surface and the border of the view is seen") {
     // The farthest point in view is where the leaning edge of a leaf crosses the upper border
     // within a beam.
-    View view = fan_view();
-    view.elevation_rad = radians(2.0);
+    const View view = fan_view(60.0, 2.0);
     Draws draws(33);
     for (int k = 0; k < 40; ++k) {
         CAPTURE(k);
@@ -116,8 +111,7 @@ TEST_CASE("strips: a corner of surface and the border of the view is seen") {
 
 TEST_CASE("strips: a cable ends in range where its corners do") {
     // Two cables that meet in a node, so that their mesh is one part.
-    View view = fan_view();
-    view.elevation_rad = radians(2.0);
+    View view = fan_view(60.0, 2.0);
     view.range_bins = 1024;
     const auto bin = static_cast<float>(view.bin_m());
     Draws draws(33);

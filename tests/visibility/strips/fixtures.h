@@ -5,8 +5,8 @@
 
 namespace sonarsim::test {
 
-inline View fan_view() {
-    return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
+inline View fan_view(double azimuth_deg = 60.0, double elevation_deg = 20.0, int beams = 64) {
+    return {radians(azimuth_deg), radians(elevation_deg), 0.2, 12.0, 256, beams, 0.03};
 }
 
 inline Samples visible(const SceneClusters& clusters, const View& view, const Pose& pose = {}) {

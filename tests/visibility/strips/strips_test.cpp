@@ -7,23 +7,6 @@
 
 namespace {
 
-View sides_of_strips() {
-    View view = fan_view();
-    view.azimuth_rad = radians(120.0);
-    view.elevation_rad = radians(1.0);
-    view.beams = 2;
-    view.shape = ViewShape::port_starboard;
-    return view;
-}
-
-View cone_of_strips() {
-    View view = fan_view();
-    view.azimuth_rad = view.elevation_rad = radians(60.0);
-    view.beams = 1;
-    view.shape = ViewShape::cone;
-    return view;
-}
-
 /// The wall x = `x`, 40 m across, of n x n x 2 triangles.
 Scene wall_ahead(float x, int n = 1) {
     return rectangle_scene({x, -20, -20}, {x, 20, 20}, 0.5F, n);
@@ -57,9 +40,7 @@ TEST_CASE("strips: two large triangles fill the range") {
     // A plane at the distance d has the disc of pi (R^2 - d^2) within the range R. Its corners are
     // out of range, and so are the ends of most columns. Samples end two bins later.
     Uniform random(3);
-    View view = fan_view();
-    view.azimuth_rad = radians(130.0);
-    view.elevation_rad = radians(150.0);
+    const View view = fan_view(130.0, 150.0);
     const double R = view.range_max_m + 2.0 * view.bin_m();
     for (int trial = 0; trial < 10; ++trial) {
         const double d = random.between(0.6, 0.95) * view.range_max_m;
@@ -81,9 +62,8 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
     // A plane at d across the boresight: pi (d tan(opening / 2))^2.
     for (const double opening_deg : {140.0, 60.0, 0.3, 0.05}) {
         CAPTURE(opening_deg);
-        View view = cone_of_strips();
+        View view = with_shape(fan_view(opening_deg), ViewShape::cone);
         view.range_max_m = 60.0;
-        view.azimuth_rad = view.elevation_rad = radians(opening_deg);
         const double radius = 4.0 * std::tan(radians(0.5 * opening_deg));
         const double error = opening_deg < 1.0 ? 0.02 : 0.01;
         for (const int n : {1, 40}) {
@@ -96,26 +76,19 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
 
 TEST_CASE("strips: a sphere fills the solid angle that it should") {
     // 2 pi (1 - cos) of the cone that touches it: sin = R / D.
-    Scene scene = empty_scene();
-    add_sphere(scene, {5, 0, 0}, 0.5F, add_material(scene, 0.5F), 256);
+    const Scene scene = sphere_scene({5, 0, 0}, 0.5F, 0.5F);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
-    for (const View& view : {fan_view(), cone_of_strips()})
+    for (const View& view : {fan_view(), with_shape(fan_view(), ViewShape::cone)})
         CHECK(filled_sr(visible(scene, view)) / expected == approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {0, 0, 0}, 3.0F, add_material(scene, 0.5F), 128);
-    View view = fan_view();
-    view.azimuth_rad = 2.0 * pi;
+    const Scene scene = sphere_scene({0, 0, 0}, 3.0F, 0.5F, 128);
     for (const double elevation_deg : {180.0, 120.0, 60.0}) {
-        CAPTURE(elevation_deg);
-        view.elevation_rad = radians(elevation_deg);
-        const double expected = 36.0 * pi * sincos(0.5 * view.elevation_rad).sin;
+        const double expected = 36.0 * pi * sincos(0.5 * radians(elevation_deg)).sin;
         for (const int beams : {1, 2, 3, 64, 1000}) {
-            CAPTURE(beams);
-            view.beams = beams;
-            const Samples samples = visible(scene, view);
+            CAPTURE_ALL(elevation_deg, beams);
+            const Samples samples = visible(scene, fan_view(360.0, elevation_deg, beams));
             CHECK(area_of(samples) == approx(expected).epsilon(0.01));
             // Columns meet at the poles of a view of 180 degrees.
             const double tolerance = elevation_deg > 120.0 ? 0.15 : 0.02;
@@ -129,7 +102,7 @@ TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
     // The ground 4 m below: azimuth is from nadir outward, so y = 4 tan(azimuth), and a strip of
     // the elevation e has the width 2 r tan(e / 2), as on a wall. One side has half of it.
     const Scene scene = rectangle_scene({4, -30, -30}, {4, 30, 30}, 0.5F, 9);
-    const View view = sides_of_strips();
+    const View view = with_shape(fan_view(120.0, 1.0), ViewShape::port_starboard);
     const Samples samples = visible(scene, view);
     for (const int side : {0, 1}) {
         for (const Sample& sample : samples.beam(side))
@@ -196,11 +169,8 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
 TEST_CASE("strips: two wide beams have the surface of rods that stand in each of them") {
     // Beams of 150 degrees. The reference has 64 beams in place of each.
     Uniform random(5);
-    View view = fan_view();
-    view.beams = 2;
-    view.azimuth_rad = radians(300.0);
-    View narrow = view;
-    narrow.beams = 128;
+    const View view = fan_view(300.0, 20.0, 2);
+    View narrow = fan_view(300.0, 20.0, 128);
     narrow.relative_l1 = 0.003;
     for (int k = 0; k < 8; ++k) {
         Scene scene = empty_scene();

@@ -95,8 +95,7 @@ TEST_CASE("strips: a wire of 4 mm is seen in every ping, as bright as a cylinder
 }
 
 TEST_CASE("strips: a ball of 2 cm is seen in every ping") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {8, 0, 0}, 0.01F, add_material(scene, 0.5F), 16);
+    const Scene scene = sphere_scene({8, 0, 0}, 0.01F, 0.5F, 16);
     const SceneClusters clusters(scene);
     for (int k = 0; k < 60; ++k) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k))};
@@ -108,9 +107,7 @@ TEST_CASE("strips: a ball of 2 cm is seen in every ping") {
 }
 
 TEST_CASE("strips: a pole at the very border of the view ends its last beam once") {
-    View view = fan_view();
-    view.azimuth_rad = radians(90.0);  // u = y / x runs from -1 to 1
-    view.beams = 4;
+    const View view = fan_view(90.0, 20.0, 4);  // u = y / x runs from -1 to 1
     for (int k = 0; k < 40; ++k) {
         Scene scene = empty_scene();
         constexpr float ulp = 4.77e-7F;  // float step between 4 and 8
