@@ -6,23 +6,9 @@
 
 namespace {
 
-/// A plane bottom 5 m below the vehicle, with a box and a ball on it.
-Scene bottom_with_objects() {
-    Scene scene = floor_scene(14.0F, -5.0F, 0.4F, 4);
-    add_box(scene, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, 0);
-    add_sphere(scene, {0.3F, -3.0F, -4.6F}, 0.4F, 0, 48);
-    return scene;
-}
-
-/// A plane bottom 5 m below the vehicle, strewn with 300 stones of 5 to 20 cm.
-Scene bottom_with_stones(Uniform& random) {
-    Scene scene = floor_scene(14.0F, -5.0F, 0.4F, 4);
-    for (int k = 0; k < 300; ++k) {
-        const float x = random.single(-1.0, 1.0);
-        const float y = random.single(-12.0, 12.0);
-        add_sphere(scene, {x, y, -5.0F}, random.single(0.05, 0.2), 0, 12);
-    }
-    return scene;
+/// A plane bottom 5 m below the vehicle.
+Scene flat_bottom() {
+    return floor_scene(14.0F, -5.0F, 0.4F, 4);
 }
 
 /// Ground of ripples of drawn height, length and direction.
@@ -52,15 +38,19 @@ double error_of(const Sonar& sonar, const Scene& scene, EngineKind engine, const
 // beam at its middle.
 TEST_CASE("side-scan: stones in a narrow beam are visible") {
     Uniform random(29);
+    SonarConfig config = calibrated(default_sonar(SonarKind::sidescan), 4e5);
+    set_range(config, 0.5, 12.0, 230);
+    config.elevation_deg = 6.0;
+    const Sonar sonar = make_sonar(config, {0.03});
     double error = 0.0;
     constexpr int scenes = 6;
     for (int k = 0; k < scenes; ++k) {
-        CAPTURE(k);
-        const Scene scene = bottom_with_stones(random);
-        SonarConfig config = calibrated(default_sonar(SonarKind::sidescan), 4e5);
-        set_range(config, 0.5, 12.0, 230);
-        config.elevation_deg = 6.0;
-        const Sonar sonar = make_sonar(config, {0.03});
+        Scene scene = flat_bottom();
+        for (int stone = 0; stone < 300; ++stone) {
+            const float x = random.single(-1.0, 1.0);
+            const float y = random.single(-12.0, 12.0);
+            add_sphere(scene, {x, y, -5.0F}, random.single(0.05, 0.2), 0, 12);
+        }
         const double aside_m = random.between(-0.5, 0.5);
         const double up_m = random.between(0.0, 0.3);
         const Pose pose{.translation = {random.between(-0.5, 0.5), aside_m, up_m}};
@@ -139,7 +129,9 @@ TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
 // A strip as long as the bottom is wide would weigh the narrow middle of the beam as much as
 // its edge.
 TEST_CASE("rays and strips agree within twice the error goal") {
-    Scene flat = floor_scene(14.0F, -5.0F, 0.4F, 4);
+    Scene with_objects = flat_bottom();
+    add_box(with_objects, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, 0);
+    add_sphere(with_objects, {0.3F, -3.0F, -4.6F}, 0.4F, 0, 48);
     SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);
     set_range(side, side.range_min_m, 12.0, 230);
     side.elevation_deg = 6.0;
@@ -147,7 +139,7 @@ TEST_CASE("rays and strips agree within twice the error goal") {
     sounder.opening_deg = 24.0;
     set_range(sounder, sounder.range_min_m, 10.0, 190);
     sounder.instrument.beam.width_deg = 7.0;
-    for (const Scene& scene : {flat, bottom_with_objects()}) {
+    for (const Scene& scene : {flat_bottom(), with_objects}) {
         for (const SonarConfig& config : {side, sounder}) {
             const Sonar sonar = make_sonar(config, {0.02});
             const std::vector<float> rays = expected_image(sonar, scene, EngineKind::rays);

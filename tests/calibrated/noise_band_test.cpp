@@ -54,15 +54,12 @@ struct NoiseOfPings {
         for (std::uint32_t ping = 0; ping < pings; ++ping) {
             const std::vector<float> image =
                 image_of_samples(model, view, {}, {.random = 2}, {}, {5, 6, ping});
-            const std::size_t beams = image.size() / static_cast<std::size_t>(view.range_bins);
-            const std::vector<double> over_mean(image.begin(), image.end());
-            power.push_back(mean(over_mean));
-            for (std::size_t lag = 0; lag <= lags; ++lag) {
-                double sum = 0.0;
-                const std::size_t end = over_mean.size() - lag * beams;
-                for (std::size_t k = 0; k < end; ++k)
-                    sum += (over_mean[k] - 1.0) * (over_mean[k + lag * beams] - 1.0);
-                products[lag].push_back(sum / static_cast<double>(end));
+            const std::vector<double> powers(image.begin(), image.end());
+            power.push_back(mean(powers));
+            const Eigen::ArrayXd off = array_of(powers) - 1.0;
+            for (int lag = 0; lag <= lags; ++lag) {
+                const Eigen::Index count = off.size() - lag * view.beams;
+                products[lag].push_back((off.head(count) * off.tail(count)).mean());
             }
         }
     }

@@ -6,15 +6,10 @@
 
 namespace {
 
-constexpr int chain_rows = 2000;
-
-View chain_view() {
-    return {0.3, 0.3, 10.0, 30.0, chain_rows, 1, 0.03, ViewShape::cone};
-}
-
-/// An echosounder that receives noise of -100 dB alone, without TVG. The pulse is so short that
-/// samples are independent.
-CalibratedModel noisy_sounder(const ReceiverConfig& chain) {
+/// The image of an echosounder that receives noise of -100 dB alone, without TVG. The pulse is so
+/// short that samples are independent.
+std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping = 0) {
+    const View view{0.3, 0.3, 10.0, 30.0, 2000, 1, 0.03, ViewShape::cone};
     InstrumentConfig config;
     config.frequency_hz = 2e5;
     config.beam.aperture = Aperture::piston;
@@ -26,21 +21,7 @@ CalibratedModel noisy_sounder(const ReceiverConfig& chain) {
     config.receiver.full_scale_db = 0.0;
     config.receiver.tvg_log = 0.0;
     config.receiver.tvg_absorption = false;
-    return calibrated_model(config, {}, chain_view(), {});
-}
-
-std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping = 0) {
-    return image_of_traced(noisy_sounder(chain), chain_view(), {}, {}, {3, 2, ping});
-}
-
-/// The powers of several pings over the mean of the noise.
-std::vector<double> noise_powers(const ReceiverConfig& chain) {
-    std::vector<double> out;
-    for (std::uint32_t ping = 0; ping < 8; ++ping) {
-        for (const float power : noise_image(chain, ping))
-            out.push_back(power / 1e-10);
-    }
-    return out;
+    return image_of_traced(calibrated_model(config, {}, view, {}), view, {}, {}, {3, 2, ping});
 }
 
 constexpr double bin_m = 0.05;
@@ -53,14 +34,44 @@ Reverberation tail_of(double share_db, double time_s) {
     return {receiver, bin_m, water_speed_m_s};
 }
 
+ReceiverConfig sampling(double samples, SampleRule rule, double expansion = 1.0) {
+    ReceiverConfig out;
+    out.samples = samples;
+    out.combine = rule;
+    out.expansion = expansion;
+    return out;
+}
+
+/// The delivered power of one sample of the power x, both in units of the mean 3.
+double delivered(const ReceiverConfig& config, double x) {
+    constexpr float mean = 3.0F;
+    std::vector<float> power{static_cast<float>(x) * mean};
+    DetectedSample(config).apply(std::vector<float>{mean}, power);
+    return static_cast<double>(power[0] / mean);
+}
+
+/// Exponential powers, as speckle has them, after the receiver; their mean is 1.
+std::vector<double> speckle(const ReceiverConfig& config) {
+    std::mt19937 draws(11);
+    std::exponential_distribution<float> exponential_draw;
+    std::vector<float> power(200000);
+    for (float& x : power)
+        x = exponential_draw(draws);
+    DetectedSample(config).apply(std::vector<float>(power.size(), 1.0F), power);
+    return {power.begin(), power.end()};
+}
+
 }  // namespace
 
 // The largest of three exponential powers lies below x with the probability (1 - exp(-x))^3, and
-// its mean 1 + 1/2 + 1/3 is divided out. Other rules: detected_sample_test.cpp.
+// its mean 1 + 1/2 + 1/3 is divided out.
 TEST_CASE("receiver: the largest of several samples has its distribution") {
-    ReceiverConfig chain;
-    chain.samples = 3.0;
-    CHECK(ks_p_value(noise_powers(chain),
+    std::vector<double> powers;  // of several pings over the mean of the noise
+    for (std::uint32_t ping = 0; ping < 8; ++ping) {
+        for (const float power : noise_image(sampling(3.0, SampleRule::maximum), ping))
+            powers.push_back(power / 1e-10);
+    }
+    CHECK(ks_p_value(powers,
                      [](double x) { return std::pow(1.0 - std::exp(-11.0 / 6.0 * x), 3); }) > 1e-3);
 }
 
@@ -224,4 +235,50 @@ TEST_CASE("reverberation: without a time there is none") {
     grid.column(0)[0] = 1.0F;
     add_reverberation(tail_of(-10.0, 0.0), PowerForm::power, {1, 2}, grid);
     CHECK(grid.occupied() == 1);
+}
+
+TEST_CASE("detected sample: one sample stays, and several keep the mean") {
+    CHECK_FALSE(DetectedSample(sampling(1.0, SampleRule::maximum)).changes());
+    for (const ReceiverConfig& config :
+         {sampling(2.0, SampleRule::maximum), sampling(14.0, SampleRule::maximum),
+          sampling(3.5, SampleRule::mean), sampling(9.0, SampleRule::maximum, 1.75)}) {
+        // The variance is at most that of exponential powers: 5 standard errors.
+        CHECK(std::fabs(mean(speckle(config)) - 1.0) < 5.0 / std::sqrt(200000.0));
+    }
+}
+
+TEST_CASE("detected sample: the largest of n has the quantile of the sample's rank") {
+    // (1 - e^-v)^n = 1 - e^-x, and the mean of the largest of n is 1 + 1/2 + ... + 1/n.
+    for (const int n : {2, 5, 14}) {
+        double harmonic = 0.0;
+        for (int k = 1; k <= n; ++k)
+            harmonic += 1.0 / k;
+        for (const double x : {1e-6, 1e-3, 0.1, 0.7, 2.0, 9.0, 30.0}) {
+            const double v = harmonic * delivered(sampling(n, SampleRule::maximum), x);
+            // ln of 1 - (1 - e^-v)^n, without cancellation where that is small.
+            const double ln_above = std::log(-std::expm1(n * std::log1p(-std::exp(-v))));
+            CAPTURE_ALL(n, x);
+            CHECK(std::fabs(-ln_above / x - 1.0) < (x < 1e-2 ? 0.02 : 1e-3));
+        }
+    }
+}
+
+TEST_CASE("detected sample: the mean of two has the quantile of the gamma distribution") {
+    // P(sum > z) = e^-z (1 + z) = e^-x, and the mean of two is z / 2.
+    for (const double x : {0.05, 0.7, 2.0, 9.0, 25.0}) {
+        const double z = 2.0 * delivered(sampling(2.0, SampleRule::mean), x);
+        CAPTURE(x);
+        CHECK(std::fabs((z - std::log1p(z)) / x - 1.0) < 2e-3);
+    }
+}
+
+TEST_CASE("detected sample: an expansion raises the power of the sample to it") {
+    const auto over_median = [](double expansion, double x) {
+        const ReceiverConfig config = sampling(9.0, SampleRule::maximum, expansion);
+        return delivered(config, x) / delivered(config, std::log(2.0));
+    };
+    for (const double x : {0.01, 0.3, 3.0, 9.0}) {
+        CAPTURE(x);
+        CHECK(over_median(1.75, x) == approx(std::pow(over_median(1.0, x), 1.75)).epsilon(1e-3));
+    }
 }

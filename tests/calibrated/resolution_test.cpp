@@ -4,11 +4,6 @@
 
 namespace {
 
-/// A plate of rock of a tenth of a millimetre that faces the sonar straight ahead.
-Samples point_at(double range_m) {
-    return patches({range_m, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, 5e-5, 5e-5, 1e-4);
-}
-
 double half_power_width(const Eigen::ArrayXd& values) {
     Eigen::Index peak = 0;
     values.maxCoeff(&peak);
@@ -48,11 +43,6 @@ Sonar scanning(const std::string& preset) {
         "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
 }
 
-/// The two-way loss of a point's level off the axis of the head: one way it is the array's pattern.
-double loss_db(const LineArray& head, double off_rad) {
-    return 4.0 * db_of_power(std::fabs(line_pattern(head, std::sin(off_rad))));
-}
-
 }  // namespace
 
 TEST_CASE("resolution cell of three presets: a point is as wide as beam and pulse are") {
@@ -72,7 +62,9 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
                 "\n    range_max_m: " + std::to_string(c.range_m + 7.625 * c.resolution_m) +
                 "\n    instrument: {usual_water: none, receiver: {samples: 1}, "
                 "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
-        const std::vector<float> image = quiet_image(sonar, point_at(c.range_m), false);
+        Samples point;
+        point.items = {plate_ahead(c.range_m, 1e-4)};
+        const std::vector<float> image = quiet_image(sonar, point, false);
         const Eigen::ArrayXXd rows = image_array(image, 121).cast<double>();
         Eigen::Index bin = 0;
         Eigen::Index beam = 0;
@@ -111,7 +103,9 @@ TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") 
         int lobes = 0;
         for (const double angle : scan_angles_rad(sonar.config)) {
             if (std::fabs(angle) >= half_view) continue;
-            const double expected = loss_db(head, angle);
+            // One way the loss is the array's pattern.
+            const double expected =
+                4.0 * db_of_power(std::fabs(line_pattern(head, std::sin(angle))));
             if (expected < -60.0) continue;  // in a null
             CHECK(std::fabs(level(angle) - ahead - expected) < 0.2);
             // The first side lobes are 20 dB down one way.

@@ -195,11 +195,6 @@ TEST_CASE("absorption agrees with another published formula") {
     }
 }
 
-TEST_CASE("sound speed: Mackenzie's own check") {
-    // 25 degrees, 35 psu, 1000 m: 1550.744 m/s.
-    CHECK(std::fabs(sound_speed_m_s({.temperature_c = 25.0, .depth_m = 1000.0}) - 1550.744) < 1e-3);
-}
-
 // Far below k a = 1 the form function is 1.25 (k a)^2: s_v = 3 M 1.25^2 k^4 a^3 / (16 pi rho).
 // Far above, a grain scatters as a sphere of the form 1 / 0.9.
 TEST_CASE("water: fine particles scatter by Rayleigh's law, coarse ones by their area") {

@@ -7,25 +7,6 @@ double surface_db(double grazing_deg, double wind_m_s, double hz) {
     return db_of_power(wind_surface_section(radians(grazing_deg), wind_m_s, hz));
 }
 
-/// A disc straight below the surface of the water, 10 m away, which looks up.
-Sonar sounder_to_surface() {
-    SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 1e5);
-    config.opening_deg = 60.0;
-    set_range(config, 5.0, 15.0, 400);
-    config.mount.rpy_deg = {0.0, 180.0, 0.0};
-    config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
-    config.instrument.frequency_hz = 1e5;
-    Sonar sonar = make_sonar(config, {});
-    sonar.settings.sees_water_surface = true;
-    return sonar;
-}
-
-Scene calm_scene(double wind_m_s) {
-    Scene scene = floor_scene(40.0F, -15.0F, 0.4F, 4);
-    scene.water_surface = WaterSurface{.height_m = 10.0, .reflection = 1.0F, .wind_m_s = wind_m_s};
-    return scene;
-}
-
 }  // namespace
 
 // Numbers of the report's equations as an open implementation writes them
@@ -65,7 +46,15 @@ TEST_CASE("wind: strengths of the surface at low frequency") {
 
 // The integral over rings of sigma(grazing) b(theta)^4 2 pi r dr / r^4, b the one-way pattern.
 TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
-    const Sonar sonar = sounder_to_surface();
+    // A disc straight below the surface of the water, 10 m away.
+    SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 1e5);
+    config.opening_deg = 60.0;
+    set_range(config, 5.0, 15.0, 400);
+    config.mount.rpy_deg = {0.0, 180.0, 0.0};
+    config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
+    config.instrument.frequency_hz = 1e5;
+    Sonar sonar = make_sonar(config, {});
+    sonar.settings.sees_water_surface = true;
     const double scale = piston_scale(radians(10.0));
     const auto absorption = calibrated_model_of(sonar).absorption_db_per_m;
     const auto flash = [&](double wind_m_s) {
@@ -77,8 +66,13 @@ TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
                    2.0 * pi * dr / std::pow(r, 3) * power_of_db(-2.0 * absorption * r);
         });
     };
-    const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
-    const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
+    const auto image_in = [&](double wind_m_s) {
+        Scene scene = floor_scene(40.0F, -15.0F, 0.4F, 4);
+        scene.water_surface = {.height_m = 10.0, .reflection = 1.0F, .wind_m_s = wind_m_s};
+        return expected_image(sonar, scene, EngineKind::rays);
+    };
+    const std::vector<float> windy = image_in(10.0);
+    const std::vector<float> breeze = image_in(3.0);
     CHECK(db_of_power(total(windy) / total(breeze)) ==
           approx(db_of_power(flash(10.0) / flash(3.0))).epsilon(0.01));
     // The level: the taps of the pulse sum to its integral over range.

@@ -12,19 +12,10 @@ constexpr double wall_y = 1.2;  // the port wall
 constexpr double R_front = 0.8;
 constexpr double R_port = 0.5;
 
-Scene corner() {
-    Scene scene = rectangle_scene({3, -9, -3}, {3, 1.2F, 3}, R_front);
-    add_rectangle(scene, {0, 1.2F, -3}, {3, 1.2F, 3}, add_material(scene, R_port));
-    return scene;
-}
-
 SonarConfig small_sonar() {
-    SonarConfig config;
-    config.name = "fls";
-    config.azimuth_deg = 60.0;
+    SonarConfig config = small_imaging();
     config.elevation_deg = 6.0;
     set_range(config, 2.0, 4.4, 16);
-    config.azimuth_bins = 64;
     config.noise.range_lambda_m = 0.2;
     config.noise.scatterer_m = 0.8;
     config.noise.add_sigma = 0.05;
@@ -168,7 +159,8 @@ class PlainSonar {
 
 TEST_CASE("a whole noisy image has the distribution of the equations") {
     constexpr int pings = 400;
-    const Scene scene = corner();
+    Scene scene = rectangle_scene({3, -9, -3}, {3, 1.2F, 3}, R_front);
+    add_rectangle(scene, {0, 1.2F, -3}, {3, 1.2F, 3}, add_material(scene, R_port));
     const auto engine = make_rays_engine(scene);
     const SonarConfig config = small_sonar();
     const Sonar sonar = make_sonar(config, {0.01});

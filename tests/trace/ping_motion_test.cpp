@@ -11,6 +11,23 @@ PingMotion moving(const Eigen::Vector3d& velocity, const Eigen::Vector3d& turn) 
     return {velocity, turn, sound_m_s};
 }
 
+/// Ten beams of 6 degrees.
+const View ten_beams{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
+
+/// A footprint at 75 m in the middle of each beam, with half of this width, m.
+Samples footprints(float half_width_m) {
+    Samples samples;
+    samples.beam_begin = {0};
+    for (int j = 0; j < 10; ++j) {
+        const Eigen::Vector3f ahead = direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
+        const Eigen::Vector3f across(-ahead.y(), ahead.x(), 0.0F);
+        samples.items.push_back(
+            patch_of(75.0F * ahead, -ahead, half_width_m * across, {0.0F, 0.0F, 0.1F}));
+        samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
+    }
+    return samples;
+}
+
 }  // namespace
 
 TEST_CASE("ping motion: past a point, sideways") {
@@ -56,21 +73,12 @@ TEST_CASE("ping motion: any motion, by a search for the time of reception; and i
 }
 
 TEST_CASE("ping motion: surface goes to the beam that receives it") {
-    // Ten beams of 6 degrees; a turn of 6 degrees in the two-way time of 75 m, a tenth of a
-    // second.
-    const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
-    Samples samples;
-    samples.beam_begin = {0};
-    for (int j = 0; j < 10; ++j) {
-        const Eigen::Vector3f ahead = direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
-        samples.items.push_back(
-            patch_of(75.0F * ahead, -ahead, {0.0F, 0.1F, 0.0F}, {0.0F, 0.0F, 0.1F}));
-        samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
-    }
+    // A turn of 6 degrees in the two-way time of 75 m, a tenth of a second.
+    Samples samples = footprints(0.1F);
     const Samples before = samples;
-    move_in_ping({}, view, samples);
+    move_in_ping({}, ten_beams, samples);
     CHECK(samples.items[3].position == before.items[3].position);
-    move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), view, samples);
+    move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0)}), ten_beams, samples);
     REQUIRE(samples.in_no_beam().size() == 1);
     CHECK(samples.beam(9).empty());
     for (int j = 0; j < 9; ++j) {
@@ -86,20 +94,14 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
     // Beams of 6 degrees, each filled by one footprint, and a turn of `share` of a beam: beam j
     // holds 1 - share of its own footprint's area and `share` of the next one's. The areas of a
     // wedge's parts are those of a trapezoid, and their centroids together are its own.
-    const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
     for (const auto& [share, wedge] : {std::pair(0.5F, 0.0F), {0.25F, 0.0F}, {0.25F, 0.4F}}) {
-        Samples samples;
-        samples.beam_begin = {0};
-        for (int j = 0; j < 10; ++j) {
-            const Eigen::Vector3f ahead = direction_of(radians(-27.0 + 6.0 * j), 0.0).cast<float>();
-            const Eigen::Vector3f across(-ahead.y(), ahead.x(), 0.0F);
-            samples.items.push_back(patch_of(75.0F * ahead, -ahead, 75.0F * radians(3.0F) * across,
-                                             {0.0F, 0.0F, 0.1F}));
-            samples.items.back().area_m2 = 2.0F;
-            samples.items.back().wedge = wedge;
-            samples.beam_begin.push_back(static_cast<std::uint32_t>(j + 1));
+        Samples samples = footprints(75.0F * static_cast<float>(radians(3.0)));
+        for (Sample& sample : samples.items) {
+            sample.area_m2 = 2.0F;
+            sample.wedge = wedge;
         }
-        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0 * share)}), view, samples);
+        move_in_ping(moving({0.0, 0.0, 0.0}, {0.0, 0.0, radians(60.0 * share)}), ten_beams,
+                     samples);
         // The low side of a wedge is the shorter one, and its centroid lies beyond the middle.
         for (int j = 0; j < 9; ++j) {
             REQUIRE(samples.beam(j).size() == 2);
@@ -110,8 +112,8 @@ TEST_CASE("ping motion: surface that the motion turns across a border is cut the
                 CHECK(azimuth ==
                       approx(radians(-30.0 + 6.0 * (j + 1 - share / 2.0))).epsilon(0.01));
             }
-            CHECK(beam_of(view, own.position) == j);
-            CHECK(beam_of(view, next.position) == j);
+            CHECK(beam_of(ten_beams, own.position) == j);
+            CHECK(beam_of(ten_beams, next.position) == j);
         }
         for (int j = 1; j < 9; ++j) {  // the parts of one footprint
             const Sample& part = samples.beam(j)[0];

@@ -117,23 +117,20 @@ inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem
     return load_scene({&file, 1}, models, read_materials(csv), "", Water{});
 }
 
-/// Writes the file and loads it, with the materials above.
-inline Scene load(const std::string& bytes) {
-    const TemporaryFolder folder;
+/// Writes the file into a folder and loads it, with the materials above.
+inline Scene load_in(const TemporaryFolder& folder, const std::string& bytes) {
     const auto materials = written(folder, "materials.csv", test_materials);
     return load_scene(written(folder, "x.glb", bytes), materials);
 }
 
 inline Scene load(const GltfBuilder& gltf) {
-    return load(gltf.glb());
+    return load_in(TemporaryFolder(), gltf.glb());
 }
 
 /// The error message of loading, without the folder; "" if there is none.
 inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
-    const auto materials = written(folder, "materials.csv", test_materials);
-    std::string message =
-        test::fault_of([&] { load_scene(written(folder, "x.glb", bytes), materials); });
+    std::string message = test::fault_of([&] { load_in(folder, bytes); });
     const std::string prefix = folder.path.string() + "/";
     for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
         message.erase(at, prefix.size());

@@ -14,19 +14,15 @@ SeabedRule bare_rule(double half_m) {
     return rule;
 }
 
-/// The area in which the rocks of a bed lie.
-double area_of_heights(const Seabed& bed) {
-    const double cell = bed.grid.cell_m;
-    return (bed.grid.columns - 1) * cell * (bed.grid.rows - 1) * cell;
-}
-
 }  // namespace
 
 TEST_CASE("rocks are a Poisson process with sizes of a power law") {
     SeabedRule rule = bare_rule(30.0);
     rule.rocks = BedRockConfig{0.7, {0.1, 2.0}, 2.4, {0.1, 0.5}};
     const Seabed bed = make_seabed(rule);
-    const double expected = 0.7 * area_of_heights(bed);
+    // The rocks lie between the heights, in a square.
+    const double half = 0.5 * (bed.grid.columns - 1) * bed.grid.cell_m;
+    const double expected = 0.7 * 4.0 * half * half;
     CHECK(std::abs(static_cast<double>(bed.rocks.size()) - expected) < 4.0 * std::sqrt(expected));
     std::vector<double> diameters, buried, x, y;
     for (const Rock& rock : bed.rocks) {
@@ -42,7 +38,6 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
     };
     CHECK(ks_p_value(diameters, law) > 1e-4);
     CHECK(ks_p_value(buried, [](double u) { return (u - 0.1) / 0.4; }) > 1e-4);
-    const double half = 0.5 * (bed.grid.columns - 1) * bed.grid.cell_m;
     const auto even = [&](double at) { return (at + half) / (2.0 * half); };
     CHECK(ks_p_value(x, even) > 1e-4);
     CHECK(ks_p_value(y, even) > 1e-4);
