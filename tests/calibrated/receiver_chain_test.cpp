@@ -66,7 +66,7 @@ std::vector<double> speckle(const ReceiverConfig& config) {
 // The largest of three exponential powers lies below x with the probability (1 - exp(-x))^3, and
 // its mean 1 + 1/2 + 1/3 is divided out.
 TEST_CASE("receiver: the largest of several samples has its distribution") {
-    std::vector<double> powers;  // of several pings over the mean of the noise
+    std::vector<double> powers;  // over the mean of the noise
     for (std::uint32_t ping = 0; ping < 8; ++ping) {
         for (const float power : noise_image(sampling(3.0, SampleRule::maximum), ping))
             powers.push_back(power / 1e-10);

@@ -7,8 +7,8 @@ namespace {
 constexpr double surface_m = 5.0;
 
 View view_to_surface(ViewShape shape, double azimuth_deg, double elevation_deg) {
-    const int beams = shape == ViewShape::fan ? 64 : 1;
-    return {radians(azimuth_deg), radians(elevation_deg), 0.5, 40.0, 800, beams, 0.03, shape};
+    return with_shape({radians(azimuth_deg), radians(elevation_deg), 0.5, 40.0, 800, 64, 0.03},
+                      shape);
 }
 
 /// The area of the surface between two ranges, m^2.
@@ -72,7 +72,6 @@ TEST_CASE("water's surface: a side-scan sonar sees it above") {
     };
     for (const Case& c : {Case{5.0, 8.0, 30.0, 800}, Case{1.0, 80.0, 100.0, 4000}}) {
         View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
-        view.beams = 2;
         view.range_max_m = std::max(40.0, c.to_m);
         view.range_bins = c.bins;
         const Pose down = pitched(90.0, {0.0, 0.0, surface_m - c.below_m});
