@@ -73,8 +73,23 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, E
     }
 }
 
+/// The kinds of clutter by default: none that a rule of `scatter` labels, as a thing would be an
+/// object here and background there.
+std::vector<std::string> unlabelled_kinds(const YamlNode* scatter) {
+    std::vector<std::string> kinds(std::begin(clutter_kinds), std::end(clutter_kinds));
+    if (scatter == nullptr) return kinds;
+    for (const YamlNode& rule : scatter->items) {
+        const YamlNode* const stock = rule.find("stock");
+        const YamlNode* const unlabelled = rule.find("unlabelled");
+        if (stock == nullptr || (unlabelled != nullptr && unlabelled->text == "true")) continue;
+        for (const YamlNode& kind : stock->items)
+            std::erase(kinds, kind.text);
+    }
+    return kinds;
+}
+
 /// A rule of `scatter` with the keys of `clutter` and defaults for the others.
-YamlNode rule_of_clutter(YamlNode clutter) {
+YamlNode rule_of_clutter(YamlNode clutter, const YamlNode* scatter) {
     if (clutter.kind != YamlNode::Kind::map)
         refuse_type(clutter, "clutter", "a section with the key density_per_m2");
     if (clutter.find("density_per_m2") == nullptr)
@@ -84,7 +99,7 @@ YamlNode rule_of_clutter(YamlNode clutter) {
         "{name: clutter, overlap: true, unlabelled: true, class: clutter, roll_deg: [-15, 15], "
         "pitch_deg: [-15, 15], scale: " +
             yaml_text(scales.scale) + ", bury: " + yaml_text(scales.bury) + ", stock: [" +
-            listed(clutter_kinds) + "]}",
+            listed(unlabelled_kinds(scatter)) + "]}",
         "");
     set_place(defaults, clutter.place);
     add_missing(defaults, clutter);
@@ -108,7 +123,7 @@ std::optional<AreaConfig> default_area(const SceneConfig& scene, const ScatterCo
 void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder, ErrorList& errors) {
     YamlNode* const scene = child(&mission, "scene");
     if (const YamlNode* const clutter = child(scene, "clutter")) {
-        YamlNode rule = rule_of_clutter(*clutter);
+        YamlNode rule = rule_of_clutter(*clutter, scene->find("scatter"));
         erase_key(*scene, "clutter");
         if (scene->find("scatter") == nullptr) add_list(*scene, "scatter", rule.place);
         if (YamlNode* const rules = scene->find("scatter"); rules->kind == YamlNode::Kind::list)

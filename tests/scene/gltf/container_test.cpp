@@ -91,10 +91,9 @@ TEST_CASE("glTF errors: a small file that would take the machine's memory") {
           "one it is at most 1048576");
     // A mesh may be placed many times.
     ReadingLimit limit;
-    TriangleSource source;
-    source.count = 1 << 27;
-    limit.add(&source, "x.glb");
-    CHECK_THROWS_WITH_AS(limit.add(&source, "x.glb"),
+    constexpr std::size_t triangles = std::size_t{1} << 27;
+    limit.add(triangles, {"x.glb"});
+    CHECK_THROWS_WITH_AS(limit.add(triangles, {"x.glb"}),
                          "x.glb: places more than 2^28 triangles (a primitive counts as 64 more)",
                          InputError);
 }
