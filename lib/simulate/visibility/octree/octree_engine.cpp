@@ -35,13 +35,13 @@ class Votes {
     }
 
     void add(const TileInView& tile) {
-        for (const TileLeaf& one : *tile.leaves) {
+        for (const Leaf& one : *tile.leaves) {
             const Eigen::Vector3f at(one.x, one.y, one.z);
             const Eigen::Vector3f centre = tile.corner.array() + leaf_m_ * (at.array() + 0.5F);
             const bool may_be_outside = tile.containment != Containment::inside;
             if (may_be_outside && volume_.contains_cube(centre, leaf_m_) == Containment::outside)
                 continue;
-            add(one.leaf, volume_.R_sensor_local() * centre);
+            add(one, volume_.R_sensor_local() * centre);
         }
     }
 

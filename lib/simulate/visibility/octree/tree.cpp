@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -12,6 +14,14 @@
 namespace sonarsim {
 
 namespace {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// A convex, planar polygon: a triangle after clipping by up to six planes.
+struct Polygon {
+    std::array<Eigen::Vector3d, 9> corner;
+    int corners = 0;
+};
 
 constexpr std::size_t max_groups = 6;
 constexpr double same_direction = 0.85;  // cosine
@@ -47,7 +57,7 @@ struct Group {
     double area;
     Eigen::Vector3d normal;  ///< sum of area times normal
     double largest;          ///< area of the largest polygon
-    Leaf leaf;
+    std::uint32_t triangle;  ///< that of this polygon
     std::uint32_t material;
 };
 
@@ -65,8 +75,7 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
         }
     }
     if (!home || (best < same_direction && groups.size() < max_groups)) {
-        groups.push_back(
-            {area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
+        groups.push_back({area, area * normal, area, triangle, facet.material});
         return;
     }
     home->area += area;
@@ -75,7 +84,7 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
     if (best >= 0.0) home->normal += area * normal;
     if (area > home->largest) {
         home->largest = area;
-        home->leaf.triangle = triangle;
+        home->triangle = triangle;
         home->material = facet.material;
     }
 }
@@ -91,34 +100,24 @@ constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 // would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
 const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
 
-}  // namespace
-
-bool overlaps(const Triangle& triangle, const Cube& cube) {
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        const double high = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        if (high < cube.min[axis] || low >= cube.min[axis] + cube.edge) return false;
-    }
-    return true;
-}
-
+/// The part of a triangle inside a cube; no corners if there is none. Surface in a face between two
+/// cubes belongs to the cube above the face.
 Polygon clip(const Triangle& triangle, const Cube& cube) {
-    Polygon polygon;
-    for (int i = 0; i < 3; ++i)
-        polygon.corner[i] = triangle[i];
-    polygon.corners = 3;
+    const auto& [a, b, c] = triangle;
+    const Eigen::Array3d lowest = a.cwiseMin(b).cwiseMin(c);
+    const Eigen::Array3d highest = a.cwiseMax(b).cwiseMax(c);
+    const Eigen::Array3d low = cube.min;
+    const Eigen::Array3d high = low + cube.edge;
+    if ((highest < low || lowest >= high).any()) return {};
+    Polygon polygon{{a, b, c}, 3};
     Polygon next;
     for (int axis = 0; axis < 3; ++axis) {
-        const double low = cube.min[axis];
-        const double high = low + cube.edge;
-        const double lowest = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        const double highest = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
-        if (lowest < low) {
-            cut(polygon, axis, low, true, next);
+        if (lowest[axis] < low[axis]) {
+            cut(polygon, axis, low[axis], true, next);
             std::swap(polygon, next);
         }
-        if (highest >= high) {
-            cut(polygon, axis, high, false, next);
+        if (highest[axis] >= high[axis]) {
+            cut(polygon, axis, high[axis], false, next);
             std::swap(polygon, next);
         }
     }
@@ -141,6 +140,8 @@ Triangle triangle_of(const Scene& scene, std::uint32_t index) {
             scene.vertices[c].cast<double>()};
 }
 
+/// The leaf of a cube; nothing if none of `triangles` has surface in it. At most a millionth of a
+/// triangle is lost to rounding.
 std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> triangles,
                             const Scene& scene, const Caster& caster) {
     const double sliver = 1e-12 * cube.edge * cube.edge;
@@ -152,10 +153,11 @@ std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> tri
             add_to_groups(area, caster.facet(index), index, groups);
     }
     if (groups.empty()) return std::nullopt;
-    Group& largest = *std::ranges::max_element(groups, {}, &Group::area);
-    largest.leaf.normal = largest.normal.normalized().cast<float>();
-    return largest.leaf;
+    const Group& largest = *std::ranges::max_element(groups, {}, &Group::area);
+    return Leaf{largest.normal.normalized().cast<float>(), largest.triangle, 0, 0, 0};
 }
+
+}  // namespace
 
 std::string too_small_leaves(double length_m, double leaf_m) {
     if (length_m + 2.0 * leaf_m <= std::ldexp(leaf_m, max_levels)) return "";
@@ -181,8 +183,7 @@ Octree::Octree(const Scene& scene, const Caster& caster, double leaf_m)
     for (int axis = 0; axis < 3; ++axis)
         min_[axis] = low[axis] - lattice_offset[axis] * leaf_m;
     std::vector<std::uint32_t> all(scene.triangles.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i)
-        all[i] = i;
+    std::iota(all.begin(), all.end(), 0U);
     add_node({}, std::move(all));
 }
 
@@ -195,14 +196,13 @@ std::vector<std::uint32_t> Octree::inside(const std::vector<std::uint32_t>& tria
                                           const Cube& cube) const {
     std::vector<std::uint32_t> found;
     for (const std::uint32_t index : triangles) {
-        const Triangle triangle = triangle_of(scene_, index);
-        if (overlaps(triangle, cube) && clip(triangle, cube).corners > 0) found.push_back(index);
+        if (clip(triangle_of(scene_, index), cube).corners > 0) found.push_back(index);
     }
     found.shrink_to_fit();
     return found;
 }
 
-void Octree::add_node(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
+Octree::Node* Octree::add_node(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
     Node& node = nodes_.emplace_back();
     node.index = index;
     const double edge_leaves = cube(index).edge / leaf_m_;
@@ -211,31 +211,31 @@ void Octree::add_node(const CubeIndex& index, std::vector<std::uint32_t> triangl
     // forever.
     node.is_tile = (edge_leaves <= leaves_per_tile_edge && few) || edge_leaves <= 2.0;
     node.triangles = std::move(triangles);
+    return &node;
 }
 
 void Octree::split(Node& node) {
     const std::vector<std::uint32_t> triangles = std::exchange(node.triangles, {});
-    node.children = static_cast<std::uint32_t>(nodes_.size());
+    node.is_split = true;
     for (int octant = 0; octant < 8; ++octant) {
         const CubeIndex child = node.index.child(octant);
         std::vector<std::uint32_t> own = inside(triangles, cube(child));
-        if (own.empty()) continue;
-        node.octants |= static_cast<std::uint8_t>(1 << octant);
-        add_node(child, std::move(own));
+        if (!own.empty()) node.children[octant] = add_node(child, std::move(own));
     }
 }
 
 void Octree::add_leaves(const CubeIndex& tile, const CubeIndex& at,
                         const std::vector<std::uint32_t>& triangles,
-                        std::vector<TileLeaf>& leaves) const {
+                        std::vector<Leaf>& leaves) const {
     if (triangles.empty()) return;
     const int depth = leaf_level_ - tile.level;
     if (at.level == leaf_level_) {
-        const auto leaf = leaf_of(cube(at), triangles, scene_, caster_);
+        auto leaf = leaf_of(cube(at), triangles, scene_, caster_);
         if (!leaf) return;
-        leaves.push_back({*leaf, static_cast<std::uint16_t>(at.x - (tile.x << depth)),
-                          static_cast<std::uint16_t>(at.y - (tile.y << depth)),
-                          static_cast<std::uint16_t>(at.z - (tile.z << depth))});
+        leaf->x = static_cast<std::uint16_t>(at.x - (tile.x << depth));
+        leaf->y = static_cast<std::uint16_t>(at.y - (tile.y << depth));
+        leaf->z = static_cast<std::uint16_t>(at.z - (tile.z << depth));
+        leaves.push_back(*leaf);
         return;
     }
     for (int octant = 0; octant < 8; ++octant) {
@@ -255,32 +255,20 @@ void Octree::find_tiles(Node& node, Containment containment, const ViewVolume& v
     if (node.is_tile) {
         node.last_use = pings_;
         if (!node.leaves) {
-            std::vector<TileLeaf> leaves;
+            std::vector<Leaf> leaves;
             add_leaves(node.index, node.index, node.triangles, leaves);
             leaves.shrink_to_fit();
-            bytes_ += leaves.size() * sizeof(TileLeaf);
-            node.leaves = std::make_shared<const std::vector<TileLeaf>>(std::move(leaves));
+            bytes_ += leaves.size() * sizeof(Leaf);
+            node.leaves = std::make_shared<const std::vector<Leaf>>(std::move(leaves));
         }
         tiles.push_back({centre.array() - 0.5F * edge, containment, node.leaves});
         return;
     }
-    if (node.children == 0) split(node);
+    if (!node.is_split) split(node);
     const int near = (centre.x() < 0.0F) | (centre.y() < 0.0F) << 1 | (centre.z() < 0.0F) << 2;
     for (int i = 0; i < 8; ++i) {
-        const unsigned octant = i ^ near;
-        if (!(node.octants >> octant & 1U)) continue;
-        const int before = std::popcount(node.octants & ((1U << octant) - 1U));
-        find_tiles(nodes_[node.children + static_cast<std::uint32_t>(before)], containment, volume,
-                   tiles);
-    }
-}
-
-void Octree::drop_old_tiles() {
-    if (bytes_ <= max_bytes) return;
-    for (Node& node : nodes_) {
-        if (!node.leaves || node.last_use == pings_) continue;
-        bytes_ -= node.leaves->size() * sizeof(TileLeaf);
-        node.leaves.reset();
+        if (Node* const child = node.children[i ^ near])
+            find_tiles(*child, containment, volume, tiles);
     }
 }
 
@@ -289,7 +277,12 @@ std::vector<TileInView> Octree::tiles_in_view(const ViewVolume& volume) {
     ++pings_;
     std::vector<TileInView> tiles;
     find_tiles(nodes_[0], Containment::partly, volume, tiles);
-    drop_old_tiles();
+    if (bytes_ <= max_bytes) return tiles;
+    for (Node& node : nodes_) {
+        if (!node.leaves || node.last_use == pings_) continue;
+        bytes_ -= node.leaves->size() * sizeof(Leaf);
+        node.leaves.reset();
+    }
     return tiles;
 }
 

@@ -6,8 +6,6 @@
 #include <deque>
 #include <memory>
 #include <mutex>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,36 +20,6 @@ struct Cube {
     double edge;
 };
 
-using Triangle = std::array<Eigen::Vector3d, 3>;
-
-/// A convex, planar polygon: a triangle after clipping by up to six planes.
-struct Polygon {
-    std::array<Eigen::Vector3d, 9> corner;
-    int corners = 0;
-};
-
-/// False if no part of the triangle's bounding box is in the cube.
-bool overlaps(const Triangle& triangle, const Cube& cube);
-
-/// The part of a triangle inside a cube; no corners if there is none. Surface in a face between two
-/// cubes belongs to the cube above the face.
-Polygon clip(const Triangle& triangle, const Cube& cube);
-
-double area_m2(const Polygon& polygon);
-
-/// The surface inside a cube: that of the direction and material with the largest area.
-struct Leaf {
-    Eigen::Vector3f normal;  ///< area-weighted mean, unit, scene-local
-    std::uint32_t triangle;  ///< the largest of its triangles, for material and instance
-};
-
-Triangle triangle_of(const Scene& scene, std::uint32_t index);
-
-/// The leaf of a cube; nothing if none of `triangles` has surface in it. At most a millionth of a
-/// triangle is lost to rounding.
-std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> triangles,
-                            const Scene& scene, const Caster& caster);
-
 /// The position of a node: cube (x, y, z) of the 8^level cubes of its level.
 struct CubeIndex {
     std::int32_t x = 0;
@@ -64,9 +32,11 @@ struct CubeIndex {
     }
 };
 
-/// A leaf, and the index of its cube in the tile.
-struct TileLeaf {
-    Leaf leaf;
+/// The surface inside the cube (x, y, z) of a tile: that of the direction and material with the
+/// largest area.
+struct Leaf {
+    Eigen::Vector3f normal;  ///< area-weighted mean, unit, scene-local
+    std::uint32_t triangle;  ///< the largest of its triangles, for material and instance
     std::uint16_t x, y, z;
 };
 
@@ -74,7 +44,7 @@ struct TileLeaf {
 struct TileInView {
     Eigen::Vector3f corner;  ///< relative to the sonar, local axes
     Containment containment;
-    std::shared_ptr<const std::vector<TileLeaf>> leaves;
+    std::shared_ptr<const std::vector<Leaf>> leaves;
 };
 
 /// The error message for a scene that is more than 2^30 leaves long; empty otherwise.
@@ -85,8 +55,7 @@ std::string too_small_leaves(double length_m, double leaf_m);
 /// view. Any number of threads may use it.
 class Octree {
   public:
-    /// `scene` and `caster` must outlive it. InputError with
-    /// too_small_leaves().
+    /// `scene` and `caster` must outlive it. InputError with too_small_leaves().
     Octree(const Scene& scene, const Caster& caster, double leaf_m);
 
     /// The tiles in view, the near ones first.
@@ -98,24 +67,22 @@ class Octree {
     struct Node {
         CubeIndex index;
         bool is_tile = false;
-        std::uint32_t children = 0;  ///< the first child; 0: not split yet
-        std::uint8_t octants = 0;    ///< bit i: octant i has surface
-        std::uint64_t last_use = 0;  ///< number of the ping
+        bool is_split = false;
+        std::array<Node*, 8> children{};  ///< by octant; null: no surface
+        std::uint64_t last_use = 0;       ///< number of the ping
         std::vector<std::uint32_t> triangles;
-        std::shared_ptr<const std::vector<TileLeaf>> leaves;  ///< null: not made, or not a tile
+        std::shared_ptr<const std::vector<Leaf>> leaves;  ///< null: not made, or not a tile
     };
 
     Cube cube(const CubeIndex& index) const;
     std::vector<std::uint32_t> inside(const std::vector<std::uint32_t>& triangles,
                                       const Cube& cube) const;
-    void add_node(const CubeIndex& index, std::vector<std::uint32_t> triangles);
+    Node* add_node(const CubeIndex& index, std::vector<std::uint32_t> triangles);
     void split(Node& node);
     void add_leaves(const CubeIndex& tile, const CubeIndex& at,
-                    const std::vector<std::uint32_t>& triangles,
-                    std::vector<TileLeaf>& leaves) const;
+                    const std::vector<std::uint32_t>& triangles, std::vector<Leaf>& leaves) const;
     void find_tiles(Node& node, Containment containment, const ViewVolume& volume,
                     std::vector<TileInView>& tiles);
-    void drop_old_tiles();
 
     const Scene& scene_;
     const Caster& caster_;
