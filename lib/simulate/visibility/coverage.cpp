@@ -80,8 +80,7 @@ RangeInterval ranges_of(const ViewPolygon& polygon, const Eigen::Vector3f& norma
 }
 
 /// The interval of distances of the part of a triangle inside a convex view.
-RangeInterval ranges_within(const std::array<Eigen::Vector3f, 3>& triangle,
-                            const Eigen::Vector3f& normal, ConvexView view) {
+RangeInterval ranges_within(const Corners& triangle, ConvexView view) {
     ViewPolygon polygons[2];
     std::copy(triangle.begin(), triangle.end(), polygons[0].corner.begin());
     polygons[0].corners = 3;
@@ -91,7 +90,7 @@ RangeInterval ranges_within(const std::array<Eigen::Vector3f, 3>& triangle,
         now = 1 - now;
         if (polygons[now].corners == 0) return {};
     }
-    return ranges_of(polygons[now], normal);
+    return ranges_of(polygons[now], (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]));
 }
 
 // The widest sector of azimuth in which a plane approximates a limit of elevation, which is a cone;
@@ -106,67 +105,70 @@ constexpr int cone_planes = ViewPolygon::max_planes;
 constexpr float min_overlap_bins = 1e-3F;
 
 /// The bins of a view and which of them are covered.
-class CoveredBins {
+class Coverage {
   public:
-    explicit CoveredBins(const View& view)
-        : min_m_(static_cast<float>(view.range_min_m)),
+    explicit Coverage(const View& view)
+        : view_(view),
           per_m_(static_cast<float>(1.0 / view.bin_m())),
-          count_(view.range_bins),
-          covered_(static_cast<std::size_t>(view.beams) * view.range_bins) {}
+          elevation_(sincos_float(0.5 * view.elevation_rad)),
+          covered_(static_cast<std::size_t>(view.beams) * view.range_bins) {
+        if (view.shape == ViewShape::cone)
+            add_pyramid();
+        else
+            add_sectors();
+    }
 
-    void mark(int beam, const RangeInterval& ranges) {
-        const auto count = static_cast<float>(count_);
-        const float from = (ranges.min_m - min_m_) * per_m_;
-        const float to = (ranges.max_m - min_m_) * per_m_;
-        if (!(from < count && to >= 0.0F)) return;
-        int first = static_cast<int>(std::max(from, 0.0F));
-        int last = static_cast<int>(std::min(to, count - 1.0F));
-        if (first < last && static_cast<float>(first + 1) - from < min_overlap_bins) ++first;
-        if (first < last && to - static_cast<float>(last) < min_overlap_bins) --last;
-        std::uint8_t* own = &covered_[static_cast<std::size_t>(beam) * count_];
-        for (int i = first; i <= last; ++i)
-            own[i] = 1;
+    void add(const Corners& corners) {
+        if (view_.shape == ViewShape::cone)
+            add_to_cone(corners);
+        else
+            add_to_fan(corners);
     }
 
     std::vector<std::uint8_t> take() { return std::move(covered_); }
 
   private:
-    float min_m_, per_m_;
-    int count_;
-    std::vector<std::uint8_t> covered_;
-};
+    /// The planes of a cone: one beam.
+    void add_pyramid() {
+        const SinCosFloat half = sincos_float(0.5 * view_.azimuth_rad);
+        for (int k = 0; k < cone_planes; ++k) {
+            const SinCosFloat around = sincos_float((k + 0.5) / cone_planes * 2.0 * pi);
+            planes_.emplace_back(half.sin, -half.cos * around.cos, -half.cos * around.sin);
+        }
+    }
 
-Eigen::Vector3f normal_of(const Corners& corners) {
-    return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-}
-
-/// A fan, or the sides of a side-scan: sectors of azimuth, several to a beam.
-class FanCoverage {
-  public:
-    explicit FanCoverage(const View& view)
-        : per_beam_(static_cast<int>(std::ceil(view.azimuth_rad / view.beams / widest_sector_rad))),
-          sectors_(per_beam_ * view.beams),
-          per_rad_(static_cast<float>(sectors_ / view.azimuth_rad)),
-          elevation_(sincos_float(0.5 * view.elevation_rad)),
-          bins_(view) {
+    /// The planes of a fan, or of the sides of a side-scan: sectors of azimuth, several to a beam.
+    void add_sectors() {
+        per_beam_ =
+            static_cast<int>(std::ceil(view_.azimuth_rad / view_.beams / widest_sector_rad));
+        sectors_ = per_beam_ * view_.beams;
         const auto azimuth = [&](double sector) {
-            return sincos_float((sector / sectors_ - 0.5) * view.azimuth_rad);
+            return sincos_float((sector / sectors_ - 0.5) * view_.azimuth_rad);
         };
         for (int k = 0; k < sectors_; ++k) {
             const SinCosFloat low = azimuth(k);
             const SinCosFloat high = azimuth(k + 1.0);
             const SinCosFloat middle = azimuth(k + 0.5);
-            const auto limit = [&](float side) {
-                return Eigen::Vector3f(elevation_.sin * middle.cos, elevation_.sin * middle.sin,
-                                       side * elevation_.cos);
-            };
-            planes_.push_back({Eigen::Vector3f(-low.sin, low.cos, 0.0F),
-                               Eigen::Vector3f(high.sin, -high.cos, 0.0F), limit(1.0F),
-                               limit(-1.0F)});
+            planes_.emplace_back(-low.sin, low.cos, 0.0F);
+            planes_.emplace_back(high.sin, -high.cos, 0.0F);
+            for (const float side : {1.0F, -1.0F})
+                planes_.emplace_back(elevation_.sin * middle.cos, elevation_.sin * middle.sin,
+                                     side * elevation_.cos);
         }
     }
 
-    void add(const Corners& corners) {
+    void add_to_cone(const Corners& corners) {
+        for (const Eigen::Vector3f& inwards : planes_) {
+            if (inwards.dot(corners[0]) < 0.0F && inwards.dot(corners[1]) < 0.0F &&
+                inwards.dot(corners[2]) < 0.0F)
+                return;
+        }
+        mark(0, ranges_within(corners, planes_));
+    }
+
+    void add_to_fan(const Corners& corners) {
+        const auto sectors = static_cast<float>(sectors_);
+        const auto per_rad = static_cast<float>(sectors_ / view_.azimuth_rad);
         int above = 0;
         int below = 0;
         std::array<float, 3> at;
@@ -174,80 +176,53 @@ class FanCoverage {
             const float highest = elevation_.sin * corners[k].norm();
             above += corners[k].z() > highest ? 1 : 0;
             below += corners[k].z() < -highest ? 1 : 0;
-            at[k] = arctan2_float(corners[k].y(), corners[k].x()) * per_rad_ +
-                    0.5F * static_cast<float>(sectors_);
+            at[k] = arctan2_float(corners[k].y(), corners[k].x()) * per_rad + 0.5F * sectors;
         }
         if (above == 3 || below == 3) return;  // the space above the view is convex
-        float low = std::min({at[0], at[1], at[2]});
-        float high = std::max({at[0], at[1], at[2]});
-        if ((high - low) > static_cast<float>(0.999 * pi) * per_rad_) {
+        auto [low, high] = std::ranges::minmax(at);
+        if ((high - low) > static_cast<float>(0.999 * pi) * per_rad) {
             low = 0.0F;  // behind the sonar or round its z axis
-            high = static_cast<float>(sectors_);
+            high = sectors;
         }
-        if (!(low < static_cast<float>(sectors_) && high >= 0.0F)) return;
-        const int first = static_cast<int>(std::max(low, 0.0F));
+        if (!(low < sectors && high >= 0.0F)) return;
         const int last = std::min(static_cast<int>(high), sectors_ - 1);
-        const Eigen::Vector3f normal = normal_of(corners);
-        for (int sector = first; sector <= last; ++sector)
-            bins_.mark(sector / per_beam_, ranges_within(corners, normal, planes_[sector]));
-    }
-
-    std::vector<std::uint8_t> take() { return bins_.take(); }
-
-  private:
-    int per_beam_;
-    int sectors_;
-    float per_rad_;
-    SinCosFloat elevation_;                               ///< greatest elevation of the view
-    std::vector<std::array<Eigen::Vector3f, 4>> planes_;  ///< the planes of each sector
-    CoveredBins bins_;
-};
-
-/// A cone: one beam, cut by the planes of a pyramid.
-class ConeCoverage {
-  public:
-    explicit ConeCoverage(const View& view) : bins_(view) {
-        const SinCosFloat half = sincos_float(0.5 * view.azimuth_rad);
-        for (int k = 0; k < cone_planes; ++k) {
-            const SinCosFloat around = sincos_float((k + 0.5) / cone_planes * 2.0 * pi);
-            planes_[k] = {half.sin, -half.cos * around.cos, -half.cos * around.sin};
+        for (int sector = static_cast<int>(std::max(low, 0.0F)); sector <= last; ++sector) {
+            const auto planes = std::span(planes_).subspan(std::size_t{4} * sector, 4);
+            mark(sector / per_beam_, ranges_within(corners, planes));
         }
     }
 
-    void add(const Corners& corners) {
-        for (const Eigen::Vector3f& inwards : planes_) {
-            if (inwards.dot(corners[0]) < 0.0F && inwards.dot(corners[1]) < 0.0F &&
-                inwards.dot(corners[2]) < 0.0F)
-                return;
-        }
-        bins_.mark(0, ranges_within(corners, normal_of(corners), planes_));
+    void mark(int beam, const RangeInterval& ranges) {
+        const auto count = static_cast<float>(view_.range_bins);
+        const auto min_m = static_cast<float>(view_.range_min_m);
+        const float from = (ranges.min_m - min_m) * per_m_;
+        const float to = (ranges.max_m - min_m) * per_m_;
+        if (!(from < count && to >= 0.0F)) return;
+        int first = static_cast<int>(std::max(from, 0.0F));
+        int last = static_cast<int>(std::min(to, count - 1.0F));
+        if (first < last && static_cast<float>(first + 1) - from < min_overlap_bins) ++first;
+        if (first < last && to - static_cast<float>(last) < min_overlap_bins) --last;
+        std::uint8_t* own = &covered_[static_cast<std::size_t>(beam) * view_.range_bins];
+        std::fill(own + first, own + last + 1, std::uint8_t{1});
     }
 
-    std::vector<std::uint8_t> take() { return bins_.take(); }
-
-  private:
-    std::array<Eigen::Vector3f, cone_planes> planes_;
-    CoveredBins bins_;
+    const View& view_;
+    float per_m_;
+    SinCosFloat elevation_;                ///< greatest elevation of the view
+    std::vector<Eigen::Vector3f> planes_;  ///< of the cone, or four of each sector
+    int per_beam_ = 0, sectors_ = 0;
+    std::vector<std::uint8_t> covered_;
 };
-
-template <class Coverage>
-std::vector<std::uint8_t> covered_by(const SceneClusters& surface, const View& view,
-                                     const Pose& T_world_sensor,
-                                     std::span<const Pose> T_world_body) {
-    Coverage coverage(view);
-    surface.in_view(view, T_world_sensor, T_world_body)
-        .visit_triangles([&](const Corners& corners) { coverage.add(corners); });
-    return coverage.take();
-}
 
 }  // namespace
 
 std::vector<std::uint8_t> covered_bins(const SceneClusters& surface, const View& view,
                                        const Pose& T_world_sensor,
                                        std::span<const Pose> T_world_body) {
-    const bool cone = view.shape == ViewShape::cone;
-    return (cone ? covered_by<ConeCoverage>
-                 : covered_by<FanCoverage>)(surface, view, T_world_sensor, T_world_body);
+    Coverage coverage(view);
+    surface.in_view(view, T_world_sensor, T_world_body)
+        .visit_triangles([&](const Corners& corners) { coverage.add(corners); });
+    return coverage.take();
 }
 
 }  // namespace sonarsim
