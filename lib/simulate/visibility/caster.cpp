@@ -133,9 +133,27 @@ struct Caster::PlacedTree {
     std::vector<TracedMesh> meshes;
     std::size_t first_copy = 0;  ///< index of the first copy
 
-    PlacedTree(const Trees& trees, std::uint32_t first)
-        : tree(trees.device), begin(first), end(first) {}
+    /// Places the scene's own triangles, bodies and copies, as far as they are wanted, from facet
+    /// `first` on.
+    PlacedTree(const Trees& trees, std::uint32_t first, bool own,
+               std::span<const Pose> T_world_body, bool copies)
+        : tree(trees.device), begin(first), end(first) {
+        Eigen::Matrix<float, 3, 4> T = Eigen::Matrix<float, 3, 4>::Identity();
+        if (own) add(trees, 0, T, false);
+        for (std::uint32_t k = 0; k < T_world_body.size(); ++k) {
+            T << T_world_body[k].rotation.toRotationMatrix().cast<float>(),
+                (T_world_body[k].translation - trees.origin).cast<float>();
+            add(trees, 1 + k, T, false);
+        }
+        first_copy = meshes.size();
+        for (std::size_t k = 0; copies && k < trees.copies.size(); ++k)
+            add(trees, trees.copies[k].tree, trees.copies[k].T_local_mesh, true);
+        // Isolated, so that a thread that waits for Embree does not begin another ping.
+        tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
+        check_embree(trees.device, "placing bodies and copies");
+    }
 
+  private:
     void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T,
              bool scaled) {
         add_instance(trees.device, tree, static_cast<unsigned int>(meshes.size()),
@@ -143,33 +161,6 @@ struct Caster::PlacedTree {
         meshes.push_back(
             {end, trees.facets.data() + trees.first_of_tree[placed], placed > 0, scaled, T});
         end += trees.size(placed);
-    }
-
-    void add_own(const Trees& trees) {
-        add(trees, 0, Eigen::Matrix<float, 3, 4>::Identity(), false);
-        first_copy = meshes.size();
-    }
-
-    void add_bodies(const Trees& trees, std::span<const Pose> T_world_body) {
-        for (std::size_t k = 0; k < T_world_body.size(); ++k) {
-            const Pose& pose = T_world_body[k];
-            Eigen::Matrix<float, 3, 4> transform;
-            transform << pose.rotation.toRotationMatrix().cast<float>(),
-                (pose.translation - trees.origin).cast<float>();
-            add(trees, static_cast<std::uint32_t>(1 + k), transform, false);
-        }
-        first_copy = meshes.size();
-    }
-
-    void add_copies(const Trees& trees) {
-        for (const Trees::PlacedCopy& copy : trees.copies)
-            add(trees, copy.tree, copy.T_local_mesh, true);
-    }
-
-    void finish(const Trees& trees) {
-        // Isolated, so that a thread that waits for Embree does not begin another ping.
-        tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
-        check_embree(trees.device, "placing bodies and copies");
     }
 };
 
@@ -180,16 +171,9 @@ Caster::Caster(std::shared_ptr<const Trees> trees,
       facets_(trees_->facets.data()),
       still_(trees_->size(0)) {
     if (placed_trees_.empty() && !trees_->copies.empty()) {
-        auto still = std::make_shared<PlacedTree>(*trees_, 0);
-        still->add_own(*trees_);
-        still->add_copies(*trees_);
-        still->finish(*trees_);
-        placed_trees_.push_back(std::move(still));
+        placed_trees_.push_back(
+            std::make_shared<PlacedTree>(*trees_, 0, true, std::span<const Pose>{}, true));
     }
-    find_box();
-}
-
-void Caster::find_box() {
     constexpr float infinite = std::numeric_limits<float>::infinity();
     low_ = infinite;
     high_ = -infinite;
@@ -269,15 +253,11 @@ std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {
 Caster Caster::moved(std::span<const Pose> T_world_body) const {
     // Copies are many and at rest, so the first tree holds them and is kept; bodies get their own
     // tree. Without copies one tree holds everything, which is faster to trace.
-    const bool has_copies = !trees_->copies.empty();
-    auto placed_tree =
-        std::make_shared<PlacedTree>(*trees_, has_copies ? placed_trees_.front()->end : 0);
-    if (!has_copies) placed_tree->add_own(*trees_);
-    placed_tree->add_bodies(*trees_, T_world_body);
-    placed_tree->finish(*trees_);
     std::vector<std::shared_ptr<const PlacedTree>> placed_trees;
-    if (has_copies) placed_trees.push_back(placed_trees_.front());
-    placed_trees.push_back(std::move(placed_tree));
+    if (!trees_->copies.empty()) placed_trees.push_back(placed_trees_.front());
+    placed_trees.push_back(
+        std::make_shared<PlacedTree>(*trees_, placed_trees.empty() ? 0 : placed_trees.front()->end,
+                                     placed_trees.empty(), T_world_body, false));
     Caster out(trees_, std::move(placed_trees));
     out.T_world_body_.assign(T_world_body.begin(), T_world_body.end());
     return out;
@@ -331,14 +311,8 @@ void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
-                  std::span<const Eigen::Vector3f> directions,
-                  std::span<std::uint32_t> facets) const {
-    cast(origins, directions, std::numeric_limits<float>::infinity(), facets);
-}
-
-void Caster::cast(std::span<const Eigen::Vector3f> origins,
-                  std::span<const Eigen::Vector3f> directions, float reach_m,
-                  std::span<std::uint32_t> facets) const {
+                  std::span<const Eigen::Vector3f> directions, std::span<std::uint32_t> facets,
+                  float reach_m) const {
     trace({.origins = {origins.data(), 1}, .directions = directions, .reach_m = {&reach_m, 0}},
           facets);
 }

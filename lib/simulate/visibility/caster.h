@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -9,11 +10,24 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
-#include "simulate/visibility/facet.h"
 
 namespace sonarsim {
 
 struct RayList;
+
+/// The data of a triangle that a ray has met; 32 bytes, half a cache line.
+struct Facet {
+    Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
+    std::uint32_t material;
+    Eigen::Vector3f normal;  ///< unit
+    std::uint32_t instance;
+};
+
+/// The distance between neighbours in a list of rays. It affects only the time.
+enum class RaySpread {
+    close,  ///< neighbours take similar paths through the scene
+    wide    ///< neighbours soon diverge
+};
 
 /// Wraps Embree: finds the first triangle that a ray meets, the same on every processor.
 class Caster {
@@ -46,10 +60,8 @@ class Caster {
     /// Rays from many points. Neighbours in the list should be neighbours in space here, too, as
     /// specular reflections of neighbouring rays are.
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
-              std::span<std::uint32_t> facets) const;
-    /// The same within `reach_m`.
-    void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
-              float reach_m, std::span<std::uint32_t> facets) const;
+              std::span<std::uint32_t> facets,
+              float reach_m = std::numeric_limits<float>::infinity()) const;
 
     /// Rays from one point: any facet that direction i meets within `reach_m[i]`, or `nothing`.
     void cast_any(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
@@ -86,7 +98,6 @@ class Caster {
     static std::shared_ptr<Trees> make_trees(const Scene& scene);
     void trace(const RayList& list, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
-    void find_box();
 
     std::shared_ptr<const Trees> trees_;
     /// Trees of placed objects. Empty: the scene has only its own triangles; one: everything; two:

@@ -180,7 +180,7 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
         }
         facets.resize(active.size());
         const float longest = *std::ranges::max_element(lengths);
-        caster.cast(origins, chords, longest * (1.0F + 2.0F * chord_overlap), facets);
+        caster.cast(origins, chords, facets, longest * (1.0F + 2.0F * chord_overlap));
         std::size_t left = 0;
         for (std::size_t k = 0; k < active.size(); ++k) {
             const std::uint32_t i = active[k];
