@@ -1,7 +1,7 @@
-#include "simulate/visibility/rays/column_samples.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
+
+#include "simulate/visibility/rays/ray_columns.h"
 
 namespace sonarsim {
 

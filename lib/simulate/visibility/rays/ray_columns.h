@@ -5,7 +5,6 @@
 
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/rays/bent_rays.h"
-#include "simulate/visibility/rays/gap_estimate.h"
 #include "simulate/visibility/rays/sampling.h"
 #include "simulate/visibility/view.h"
 
@@ -46,5 +45,13 @@ struct BeamRange {
 /// disagree, and splits the gap between two neighbouring rays while its estimate is too uncertain.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
                             const Sampling& sampling, BeamRange beams, const BentWater& water = {});
+
+/// The surface that the columns of rays have met. Each ray represents a segment of its column as a
+/// flat patch of the plane that it met. If the surface is continuous from one ray to the next,
+/// their patches meet where the two planes do, so faceted surface is reproduced exactly; otherwise
+/// they end half way. Appends the samples of `beams` to `samples`, which holds those of the earlier
+/// beams.
+void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
+                        BeamRange beams, Samples& samples);
 
 }  // namespace sonarsim

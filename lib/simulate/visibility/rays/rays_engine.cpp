@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "simulate/visibility/rays/bent_rays.h"
-#include "simulate/visibility/rays/column_samples.h"
 #include "simulate/visibility/rays/ray_columns.h"
 #include "simulate/visibility/view.h"
 
