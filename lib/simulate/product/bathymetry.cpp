@@ -14,6 +14,8 @@ namespace {
 constexpr double soundings_per_cell = 4.0;
 constexpr double finest_cell_m = 1e-6;  // the limit of range bins
 
+constexpr double max_map_cells = 1 << 24;
+
 constexpr int map_px = 900;       // longer side of a map of few cells
 constexpr int max_map_px = 4000;  // longer side of a map of many cells
 constexpr int margin = 10;

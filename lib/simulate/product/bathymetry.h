@@ -11,8 +11,6 @@ namespace sonarsim {
 /// The least quality of a sounding in a map.
 inline constexpr double map_quality = 0.5;
 
-inline constexpr double max_map_cells = 1 << 24;
-
 /// The ground that a map covers, and the number of its points.
 struct GroundBounds {
     Eigen::AlignedBox2d box;  ///< world x, y, m

@@ -86,15 +86,12 @@ void divide_by_background(std::span<double> beam, std::span<const float> noise) 
 /// elevation 0 in the frame at transmission, which a fan that moves has left since.
 Eigen::Vector3d on_axis(const PingMotion& motion, ViewShape shape, double azimuth_rad,
                         double range_m) {
-    const SinCos azimuth = sincos(azimuth_rad);
-    Eigen::Vector3d place = range_m * Eigen::Vector3d(azimuth.cos, azimuth.sin, 0.0);
+    Eigen::Vector3d place = range_m * direction_of(azimuth_rad, 0.0);
     if (motion.is_still()) return place;
     double elevation_rad = 0.0;
     for (int k = 0; k < 3; ++k) {  // each step reduces the error about a hundredfold
         elevation_rad -= unmoved_place(motion, shape, place).z() / range_m;
-        const SinCos elevation = sincos(elevation_rad);
-        place = range_m * Eigen::Vector3d(elevation.cos * azimuth.cos, elevation.cos * azimuth.sin,
-                                          elevation.sin);
+        place = range_m * direction_of(azimuth_rad, elevation_rad);
     }
     return place;
 }

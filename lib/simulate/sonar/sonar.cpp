@@ -224,8 +224,10 @@ std::size_t stage_count(const Sonar& sonar) {
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
                               const PingKey& key) {
     std::vector<Ping> stages;
-    for (std::size_t k = 0; k < stage_count(sonar); ++k)
-        stages.push_back(form_image(traced, sonar.settings, scene, key, terms_at_stage(k)));
+    for (std::size_t k = 0; k < stage_count(sonar); ++k) {
+        const Terms terms{.multipath = k > 0, .random = k > 0 ? k - 1 : 0};
+        stages.push_back(form_image(traced, sonar.settings, scene, key, terms));
+    }
     return stages;
 }
 

@@ -57,7 +57,8 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
 Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, const PingKey& key, const Terms& terms = {});
 
-/// The stages of the sonar's echo model, see terms_at_stage().
+/// The stages of the sonar's echo model, as in the paper's Fig. 5(d): 0 is direct echoes alone, 1
+/// adds multipath, and each stage more adds one of the random terms.
 std::size_t stage_count(const Sonar& sonar);
 
 /// The images of a traced ping at the stages of the sonar's echo model. The last is the ping

@@ -186,16 +186,15 @@ void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_se
     GroundMapApplier layer(maps, view, T_world_sensor, profile, strengths);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
-    std::uint32_t begin = 0;
-    for (std::size_t beam = 0; beam + 1 < samples.beam_begin.size(); ++beam) {
-        const std::uint32_t end = samples.beam_begin[beam + 1];
-        for (std::uint32_t k = begin; k < end; ++k)
-            layer.apply(samples.items[k], items);
-        begin = end;
-        samples.beam_begin[beam + 1] = static_cast<std::uint32_t>(items.size());
-    }
-    for (std::size_t k = begin; k < samples.items.size(); ++k)
-        layer.apply(samples.items[k], items);
+    std::size_t next = 0;
+    const auto apply_up_to = [&](std::size_t end) {
+        for (; next < end; ++next)
+            layer.apply(samples.items[next], items);
+        return static_cast<std::uint32_t>(items.size());
+    };
+    for (std::uint32_t& begin : samples.beam_begin)
+        begin = apply_up_to(begin);
+    apply_up_to(samples.items.size());
     samples.items = std::move(items);
 }
 

@@ -51,10 +51,4 @@ inline constexpr Terms surface_alone{.multipath = false, .water = false, .random
 inline constexpr Terms multipath_alone{.direct = false, .random = 0};
 inline constexpr Terms without_random_terms{.random = 0};
 
-/// The image at a stage of the model: 0 is direct echoes alone, 1 adds multipath, and each stage
-/// more adds one of the random terms, as in the paper's Fig. 5(d).
-inline constexpr Terms terms_at_stage(std::size_t stage) {
-    return {.multipath = stage > 0, .random = stage > 0 ? stage - 1 : 0};
-}
-
 }  // namespace sonarsim

@@ -11,6 +11,15 @@ namespace sonarsim {
 
 namespace {
 
+/// The rotation about a vector by its length in radians.
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
+    const double angle = turn_rad.norm();
+    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
+    const SinCos half = sincos(0.5 * angle);
+    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
+    return {half.cos, axis.x(), axis.y(), axis.z()};
+}
+
 /// The moment whose frame measures directions, as a share of the two-way time.
 double reception_share(const PingMotion& motion, ViewShape shape) {
     return shape == ViewShape::fan && motion.measures_direction ? 1.0 : 0.5;
@@ -118,14 +127,6 @@ void sort_into_beams(const View& view, Samples& samples) {
 }
 
 }  // namespace
-
-Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
-    const double angle = turn_rad.norm();
-    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
-    const SinCos half = sincos(0.5 * angle);
-    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
-    return {half.cos, axis.x(), axis.y(), axis.z()};
-}
 
 PingMotion motion_after(const PingMotion& motion, double later_s) {
     PingMotion out = motion;

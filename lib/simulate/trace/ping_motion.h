@@ -23,9 +23,6 @@ struct PingMotion {
     }
 };
 
-/// The rotation about a vector by its length in radians.
-Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad);
-
 /// The same motion in the sonar's frame at a later transmission.
 PingMotion motion_after(const PingMotion& motion, double later_s);
 /// The pose of the sonar at that transmission.

@@ -28,13 +28,6 @@ struct Cell {
     double half_azimuth, half_elevation;
 };
 
-Eigen::Vector3f direction(double azimuth, double elevation) {
-    const SinCos a = sincos(azimuth);
-    const SinCos e = sincos(elevation);
-    return {static_cast<float>(e.cos * a.cos), static_cast<float>(e.cos * a.sin),
-            static_cast<float>(e.sin)};
-}
-
 class SurfaceCutter {
   public:
     SurfaceCutter(const WaterMirror& surface, const View& view, std::uint32_t material)
@@ -67,9 +60,10 @@ class SurfaceCutter {
     }
 
     void add(const Cell& cell, int cuts) {
-        const auto towards = [&](double a, double e) {
-            return direction(cell.azimuth + a * cell.half_azimuth,
-                             cell.elevation + e * cell.half_elevation);
+        const auto towards = [&](double a, double e) -> Eigen::Vector3f {
+            return direction_of(cell.azimuth + a * cell.half_azimuth,
+                                cell.elevation + e * cell.half_elevation)
+                .cast<float>();
         };
         // Infinite below the horizon.
         const auto range = [&](const Eigen::Vector3f& to) {

@@ -20,14 +20,6 @@ struct Gap {
     int above;
 };
 
-std::vector<ViewColumn> columns_of(const View& view, int per_beam, BeamRange beams) {
-    std::vector<ViewColumn> columns = view_columns(view, per_beam);
-    std::erase_if(columns, [beams](const ViewColumn& column) {
-        return column.beam < beams.begin || column.beam >= beams.end;
-    });
-    return columns;
-}
-
 /// Casts the columns of some beams. Holds the shared state of the steps of one call.
 class ColumnCaster {
   public:
@@ -39,8 +31,11 @@ class ColumnCaster {
           pose_(pose),
           sampling_(sampling),
           reach_m_(static_cast<float>(view.range_max_m)),
-          view_columns_(columns_of(view, sampling.columns, beams)),
+          view_columns_(view_columns(view, sampling.columns)),
           out_(out) {
+        std::erase_if(view_columns_, [beams](const ViewColumn& column) {
+            return column.beam < beams.begin || column.beam >= beams.end;
+        });
         out_.whole_columns = view_columns_.size();
     }
 
@@ -200,7 +195,6 @@ class ColumnCaster {
         if (water_.profile) return cast_bent(order);
         caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_, spread);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
-        const float nearest_m = nearest_share * reach_m_;
         for (std::size_t i = 0; i < count; ++i) {
             // Prefetches: the facets of a large scene are scattered over main memory.
             constexpr std::size_t ahead = 16;
@@ -217,13 +211,17 @@ class ColumnCaster {
             ray.range_m = ray.height_m / ray.cosine;
             ray.material = facet.material;
             ray.instance = facet.instance;
-            // A plane that is edge-on to within rounding has no range and reflects nothing.
-            if (!(ray.cosine > 1e-7F && ray.range_m > nearest_m)) {
-                ray.facet = Caster::nothing;
-                ++out_.dropped;
-            }
+            drop_unless_seen(ray, ray.cosine);
         }
         cast_count_ = out_.rays.size();
+    }
+
+    /// Drops a ray whose plane is edge-on to within rounding, which has no range and reflects
+    /// nothing, or touches the sonar. `cosine`: the least of its cosines.
+    void drop_unless_seen(CastRay& ray, float cosine) {
+        if (cosine > 1e-7F && ray.range_m > nearest_share * reach_m_) return;
+        ray.facet = Caster::nothing;
+        ++out_.dropped;
     }
 
     /// The same along bent rays: a ray gets the apparent plane of the surface.
@@ -247,11 +245,7 @@ class ColumnCaster {
             ray.instance = facet.instance;
             out_.tubes[order[i]] = hit.tube;
             out_.tubes[order[i]].normal = R_sensor_local * hit.tube.normal;
-            if (!(hit.cosine > 1e-7F && hit.tube.cosine > 1e-7F &&
-                  hit.range_m > nearest_share * reach_m_)) {
-                ray.facet = Caster::nothing;
-                ++out_.dropped;
-            }
+            drop_unless_seen(ray, std::min(hit.cosine, hit.tube.cosine));
         }
         cast_count_ = out_.rays.size();
     }
@@ -275,7 +269,7 @@ class ColumnCaster {
     const LocalPose& pose_;
     const Sampling& sampling_;
     const float reach_m_;
-    const std::vector<ViewColumn> view_columns_;
+    std::vector<ViewColumn> view_columns_;  ///< of the beams
     RayColumns& out_;
     std::size_t cast_count_ = 0;  ///< number of rays cast so far
     std::vector<Eigen::Vector3f> directions_;
