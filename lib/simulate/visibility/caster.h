@@ -10,24 +10,11 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
+#include "simulate/visibility/facet.h"
 
 namespace sonarsim {
 
 struct RayList;
-
-/// The data of a triangle that a ray has met; 32 bytes, half a cache line.
-struct Facet {
-    Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
-    std::uint32_t material;
-    Eigen::Vector3f normal;  ///< unit
-    std::uint32_t instance;
-};
-
-/// The distance between neighbours in a list of rays. It affects only the time.
-enum class RaySpread {
-    close,  ///< neighbours take similar paths through the scene
-    wide    ///< neighbours soon diverge
-};
 
 /// Wraps Embree: finds the first triangle that a ray meets, the same on every processor.
 class Caster {

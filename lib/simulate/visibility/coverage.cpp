@@ -209,7 +209,7 @@ class Coverage {
     const View& view_;
     float per_m_;
     SinCosFloat elevation_;                ///< greatest elevation of the view
-    std::vector<Eigen::Vector3f> planes_;  ///< of the cone, or four of each sector
+    std::vector<Eigen::Vector3f> planes_;  ///< four for each sector, or the cone's
     int per_beam_ = 0, sectors_ = 0;
     std::vector<std::uint8_t> covered_;
 };

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "simulate/visibility/caster.h"
 #include "simulate/visibility/embree.h"
+#include "simulate/visibility/facet.h"
 
 namespace sonarsim {
 

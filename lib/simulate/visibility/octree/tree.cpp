@@ -57,7 +57,7 @@ struct Group {
     double area;
     Eigen::Vector3d normal;  ///< sum of area times normal
     double largest;          ///< area of the largest polygon
-    std::uint32_t triangle;  ///< that of this polygon
+    std::uint32_t triangle;  ///< the triangle of this polygon
     std::uint32_t material;
 };
 

@@ -68,7 +68,7 @@ class Octree {
         CubeIndex index;
         bool is_tile = false;
         bool is_split = false;
-        std::array<Node*, 8> children{};  ///< by octant; null: no surface
+        std::array<Node*, 8> children{};  ///< one for each octant; null: no surface
         std::uint64_t last_use = 0;       ///< number of the ping
         std::vector<std::uint32_t> triangles;
         std::shared_ptr<const std::vector<Leaf>> leaves;  ///< null: not made, or not a tile
