@@ -269,7 +269,7 @@ class ColumnCaster {
     const LocalPose& pose_;
     const Sampling& sampling_;
     const float reach_m_;
-    std::vector<ViewColumn> view_columns_;  ///< those that are cast
+    std::vector<ViewColumn> view_columns_;  ///< the columns of the beams
     RayColumns& out_;
     std::size_t cast_count_ = 0;  ///< number of rays cast so far
     std::vector<Eigen::Vector3f> directions_;
