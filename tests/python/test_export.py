@@ -281,6 +281,8 @@ class Export(tool.ToolTest):
         rows = np.asarray(Image.open(next(dest.glob("train/mine/*.png")))).astype(int)
         changes = np.abs(np.diff(rows, axis=0)).max(axis=1) > 0     # pings are two pixels apart
         self.assertLessEqual(changes.sum(), 16)
+        left_out = json.loads((dest / "statistics.json").read_text())["left_out"]
+        self.assertEqual(left_out["beds"] + len(list(dest.glob("train/background/*.png"))), 1)
         self.assertFalse((changes[1:] & changes[:-1]).any())
 
     def test_yolo(self):
@@ -450,6 +452,10 @@ class Export(tool.ToolTest):
         (self.folder / "many/variants.json").write_text(json.dumps({"variants": [{"folder": name} for name in names]}))
         self.export(self.folder / "many", self.out, "--format", "coco", "--split", "train=0.8,val=0.2", "--sensor", "fls")
         train, val = self.coco("train"), self.coco("val")
+        one_by_one = [self.folder / "many" / name for name in names]
+        self.export(*one_by_one, "--format", "coco", "--split", "train=0.8,val=0.2", "--sensor", "fls",
+                    dest=self.folder / "one_by_one")
+        self.assertEqual({name.split("-")[0] for name in self.coco("val", self.folder / "one_by_one")[1]}, {"variant_0004"})
         self.assertEqual(sum(name.startswith("many-variant_0004-") for name in val[1]), PINGS)
         self.assertEqual(sum(name.startswith("many-") for name in train[1]), 4 * PINGS)
         self.assertEqual(sum(name.startswith("out-fls-") for name in train[1]), PINGS)

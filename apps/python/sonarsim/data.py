@@ -126,10 +126,8 @@ class Points(typing.NamedTuple):
 
 
 class Sensor:
-    """A sonar of a dataset: a sequence of samples.
-
-    `name`, `kind`, `range_edges_m`, `azimuth_edges_rad` (None where the kind has none), `pings` (the
-    number of the pose of each), `keys` (what a sample holds)."""
+    """A sonar of a dataset: a sequence of samples. `name`, `kind`, `range_edges_m`, `azimuth_edges_rad` (None where the
+    kind has none), `pings` (the number of the pose of each), `keys` (what a sample holds)."""
 
     def __init__(self, folder, description):
         self.folder = folder
@@ -220,8 +218,7 @@ class Sensor:
         return int(np.ceil(height_m / pixel_m - 1e-6)), width, pixel_m
 
     def to_fan(self, polar, width=512, blank=0):
-        """[range, azimuth, ...] as a fan [row, column, ...]: each pixel is the bin that its centre
-        lies in (so ids stay ids), `blank` outside the sector."""
+        """[range, azimuth, ...] as a fan [row, column, ...]: each pixel is the bin at its centre, `blank` outside of it."""
         height, width, pixel_m = self.fan_shape(width)
         ahead = self.range_edges_m[-1] - (np.arange(height)[:, None] + 0.5) * pixel_m
         port = (0.5 * width - (np.arange(width)[None, :] + 0.5)) * pixel_m
@@ -229,15 +226,13 @@ class Sensor:
         azimuth = np.arctan2(port, ahead)
         column = bin_of(azimuth, self.azimuth_edges_rad)
         # Straight astern, a full turn ends.
-        last = len(self.azimuth_edges_rad) - 2
-        column = np.where(azimuth == self.azimuth_edges_rad[-1], last, column)
+        column = np.where(azimuth == self.azimuth_edges_rad[-1], len(self.azimuth_edges_rad) - 2, column)
         fan = np.asarray(polar)[np.maximum(row, 0), np.maximum(column, 0)]
         fan[(row < 0) | (column < 0)] = blank
         return fan
 
     def from_fan(self, fan):
-        """A fan [row, column, ...] as [range, azimuth, ...]: each bin is the pixel that its centre
-        lies in."""
+        """A fan [row, column, ...] as [range, azimuth, ...]: each bin is the pixel at its centre."""
         fan = np.asarray(fan)
         height, width, pixel_m = self.fan_shape(fan.shape[1])
         if height != fan.shape[0]:
@@ -285,8 +280,7 @@ class Sample(collections.abc.Mapping):
     """A ping of a sensor. Its arrays are read when needed: sample['polar']."""
 
     def __init__(self, sensor, index):
-        self.sensor = sensor
-        self.index = index
+        self.sensor, self.index = sensor, index
         self.ping = sensor.pings[index]     # the number of its pose
 
     def __getitem__(self, name):
@@ -303,8 +297,10 @@ class Sample(collections.abc.Mapping):
 
 
 def torch_dataset(sensor, names=("polar",), transform=None):
-    """The pings of a sensor as a torch.utils.data.Dataset: each item a tuple of tensors in the order
-    of `names`, or what `transform` makes of that tuple. ImportError without torch."""
+    """The pings of a sensor as a torch.utils.data.Dataset: each item a tuple of tensors in the order of `names`, JSON
+    ones as text, or what `transform` makes of that tuple. ImportError without torch."""
+    if not isinstance(sensor, Sensor):
+        raise TypeError(f"torch_dataset() takes a sensor, such as dataset.sensors['fls'], not a {type(sensor).__name__}")
     import torch  # pylint: disable=import-outside-toplevel,import-error
 
     class Pings(torch.utils.data.Dataset):
@@ -313,8 +309,9 @@ def torch_dataset(sensor, names=("polar",), transform=None):
 
         def __getitem__(self, index):
             # torch has no uint16; ids fit its int32.
-            arrays = [np.array(sensor.read(index, name)) for name in names]
-            tensors = tuple(torch.from_numpy(a.astype(np.int32) if a.dtype == np.uint16 else a) for a in arrays)
+            found = [sensor.read(index, name) for name in names]
+            tensors = tuple(json.dumps(one) if isinstance(one, dict) else
+                            torch.from_numpy(np.array(one, np.int32 if one.dtype == np.uint16 else None)) for one in found)
             return transform(tensors) if transform else tensors
 
         def __reduce__(self):       # for the workers of a DataLoader

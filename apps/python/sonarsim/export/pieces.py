@@ -44,8 +44,8 @@ def prepare(picture, numbers, options):
         kept = [one for one in objects if is_kept(one, picture, options)]
     faint = len(objects) - len(kept)
     if options.format == "crops":
-        pieces, dropped = crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
-        return pieces, {"faint": faint, "pieces": dropped}
+        pieces, left_out = crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
+        return pieces, {"faint": faint, **left_out}
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
         if part is None:
@@ -66,7 +66,7 @@ def prepare(picture, numbers, options):
 
 
 def crops_of(picture, pixels, objects, boxes, options):
-    """(crops, objects left out) of a picture: one around each object and some of the bed alone, at one scale. `boxes` are
+    """(crops, counts of what is left out) of a picture: one around each object and some of the bed alone, at one scale. `boxes` are
     those of all objects, faint ones too."""
     image = Image.fromarray(np.ascontiguousarray(pixels))
     # A screen repeats the rows of pings that are further apart than its own.
@@ -75,7 +75,7 @@ def crops_of(picture, pixels, objects, boxes, options):
     if max(sides) > MAX_CROP * max(image.size):
         raise ValueError(f"--pixel-m {options.pixel_m:g}: a crop would be {max(sides) / max(image.size):.3g} times as large as "
                          f"{picture.path}; take less")
-    found, dropped = [], 0
+    found, dropped, beds = [], 0, 0
 
     def add(name, middle, shown):
         frame = frame_of(middle, sides)
@@ -99,8 +99,9 @@ def crops_of(picture, pixels, objects, boxes, options):
             is_bed = (inside.sum() >= MIN_IN_VIEW * sides[0] * sides[1] and
                       not any(runs.cut_box(box, frame) for box in boxes))
             if is_bed and add(f"bed-{number}", middle, []):
+                beds += 1
                 break
-    return found, dropped
+    return found, {"pieces": dropped, "beds": options.negatives - beds}
 
 
 def frame_of(middle, sides):

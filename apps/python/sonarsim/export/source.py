@@ -38,9 +38,14 @@ class Source:
     name, 0 for no object), `classes` (number k is entry k - 1) and `pictures`."""
 
     def __init__(self, folders, options):
-        self.datasets, self._names, self._shares = [], [], []
-        for folder in folders:
-            self._add_folder(pathlib.Path(folder), len(folders) > 1, options)
+        self.datasets, self._names = [], []
+        for folder in map(pathlib.Path, folders):
+            for name, dataset in named_datasets(folder, len(folders) > 1):
+                if not dataset.classes:
+                    raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
+                self._names.append(name)
+                self.datasets.append(dataset)
+        self._shares = self._shares_of_datasets(options)
         self._number_classes(options)
         require_known(options.sensor, {name: 0 for one in self.datasets for name in one.sensors}, "--sensor")
         self.pictures, self._taken = [], set()
@@ -49,17 +54,16 @@ class Source:
         if not self.pictures:
             raise ValueError(f"{folders[0]}: has no pictures to export: none of the sensors writes any")
 
-    def _add_folder(self, folder, is_one_of_many, options):
-        found = named_datasets(folder, is_one_of_many)
-        has_variants = found[0][1].folder != folder
-        is_split = has_variants and options.split
-        parts = split.variants_parts(options.split, len(found), options.rounds) if is_split else [None] * len(found)
-        for (name, dataset), part in zip(found, parts):
-            if not dataset.classes:
-                raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
-            self._names.append(name)
-            self._shares.append(part if has_variants or not options.split else options.split)
-            self.datasets.append(dataset)
+    def _shares_of_datasets(self, options):
+        """The part of each dataset that is one of several variants of a mission; the shares of the others."""
+        shares, variants = [options.split] * len(self.datasets), {}
+        for index, one in enumerate(self.datasets if options.split else ()):
+            if (one.folder.resolve().parent / "variants.json").is_file():
+                variants.setdefault(one.folder.resolve().parent, []).append(index)
+        for group in filter(lambda one: len(one) > 1, variants.values()):
+            for index, part in zip(group, split.variants_parts(options.split, len(group), options.rounds)):
+                shares[index] = part
+        return shares
 
     def _number_classes(self, options):
         known = [(name, name in one.background) for one in self.datasets for name in one.classes.values()]

@@ -32,7 +32,7 @@ class Statistics:
     def __init__(self, classes):
         self.parts = collections.defaultdict(lambda: Tally(classes))
         self.all = Tally(classes)
-        self.left_out = {"pictures": 0, "faint": 0, "pieces": 0}
+        self.left_out = {"pictures": 0, "faint": 0, "pieces": 0, "beds": 0}
 
     def add(self, piece):
         for tally in (self.all, self.parts[piece.part]):
@@ -51,4 +51,5 @@ class Statistics:
                   for row in [["class", "objects", "pictures", "annotations", "ignored"], *rows]]
         return "\n".join(lines + [f"left out: {self.left_out['pictures']} pictures or tiles that are not in one part "
                                   f"of the split, {self.left_out['faint']} faint objects, "
-                                  f"{self.left_out['pieces']} pieces of objects that are too small"])
+                                  f"{self.left_out['pieces']} pieces of objects that are too small, "
+                                  f"{self.left_out['beds']} crops of the bed for which there was no room"])
