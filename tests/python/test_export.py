@@ -94,14 +94,17 @@ def write_dataset(folder, mission="made"):
 class Export(tool.ToolTest):
     def setUp(self):
         super().setUp()
-        self.out, self.dest = self.folder / "out", self.folder / "dest"
+        self.out = self.folder / "out"
         write_dataset(self.out)
 
-    def export(self, *words, dest=None):
-        return self.succeeds("export", *words, dest or self.dest)
+    def export(self, kind, *words, sources=()):
+        """Exports in a format into `dest`, a new folder, which is returned; what is said of it is `printed`."""
+        self.dest = self.folder / f"dest{len(list(self.folder.iterdir()))}"
+        self.printed = self.succeeds("export", *(sources or [self.out]), "--format", kind, *words, self.dest)
+        return self.dest
 
     def refused(self, text, *words):
-        self.assert_refused("export", text, self.out, *words, self.dest)
+        self.assert_refused("export", text, self.out, *words, self.folder / "none")
 
     def coco(self, part="train", dest=None):
         file = json.loads(((dest or self.dest) / f"annotations/instances_{part}.json").read_text())
@@ -119,7 +122,7 @@ class Export(tool.ToolTest):
             Image.fromarray(np.where(fan_objects(ping)[1][2], change(fan), fan)).save(path)
 
     def test_coco(self):
-        self.export(self.out, "--format", "coco")
+        self.export("coco")
         file, found = self.coco()
         self.assertEqual([one["name"] for one in file["categories"]], ["mine", "tyre"])
         self.assertEqual(len(found), PINGS + 1)
@@ -146,11 +149,10 @@ class Export(tool.ToolTest):
                                 (("--box", "both"), {2: [2, 6, 18, 9], 3: [27, 19, 7, 7]}), (("--min-pixels", "60"), {}),
                                 (("--min-contrast-db", "5"), {2: [2, 6, 9, 9]}),
                                 (("--without", "mine"), {3: [27, 19, 7, 7]})):
-            dest = self.folder / "-".join(words)
-            self.export(self.out, "--format", "coco", "--sensor", "fls", *words, dest=dest)
-            found = self.coco(dest=dest)[1]["fls-000000.png"]
+            self.export("coco", "--sensor", "fls", *words)
+            found = self.coco()[1]["fls-000000.png"]
             self.assertEqual({one["instance_id"]: one["bbox"] for one in found}, expected, words)
-        self.export(self.out, "--format", "coco", "--faint", "crowd", "--min-pixels", "40")
+        self.export("coco", "--faint", "crowd", "--min-pixels", "40")
         self.assertEqual([one["iscrowd"] for one in self.coco()[1]["fls-000000.png"]], [0, 1])
 
     def test_a_slope_of_the_grey_hides_nothing(self):
@@ -196,27 +198,25 @@ class Export(tool.ToolTest):
     def test_objects_that_no_eye_sees(self):
         """Objects that add 8 greys to a noise of 34 are faint, dark ones are not; all formats agree on it."""
         self.change_mines(lambda grey: grey - (BRIGHTER - 8))
-        fls, faint = (self.out, "--sensor", "fls", "--format"), {}
+        faint = {}
         for words, expected in (((), [3]), (("--min-grey", "0"), [2, 3]), (("--min-grey", "200"), [])):
-            dests = [self.folder / "-".join((kind, *words)) for kind in ("coco", "yolo", "masks")]
-            for dest, kind in zip(dests, ("coco", "yolo", "masks")):
-                self.export(*fls, kind, *words, dest=dest)
-                faint[words] = json.loads((dest / "statistics.json").read_text())["left_out"]["faint"]
+            coco, yolo, masks = (self.export(kind, "--sensor", "fls", *words) for kind in ("coco", "yolo", "masks"))
+            faint[words] = json.loads((masks / "statistics.json").read_text())["left_out"]["faint"]
             for ping in range(4):
-                found = self.coco(dest=dests[0])[1][f"fls-{ping:06}.png"]
+                found = self.coco(dest=coco)[1][f"fls-{ping:06}.png"]
                 self.assertEqual([one["instance_id"] for one in found], expected, words)
-                lines = (dests[1] / f"labels/train/fls-{ping:06}.txt").read_text().splitlines()
+                lines = (yolo / f"labels/train/fls-{ping:06}.txt").read_text().splitlines()
                 self.assertEqual([int(line.split()[0]) + 2 for line in lines], expected)
                 for line, one in zip(lines, found):
                     x, y, width, height = np.array(line.split()[1:], float) * (WIDTH, HEIGHT, WIDTH, HEIGHT)
                     np.testing.assert_allclose(one["bbox"], (x - width / 2, y - height / 2, width, height), atol=0.01)
-                marks = np.asarray(Image.open(dests[2] / f"ann_dir/train/fls-{ping:06}.png"))
+                marks = np.asarray(Image.open(masks / f"ann_dir/train/fls-{ping:06}.png"))
                 for one in found:
                     mask = mask_of(one["segmentation"]["counts"], WIDTH, HEIGHT)
                     np.testing.assert_array_equal(marks == one["category_id"], mask)
                 self.assertEqual(set(np.unique(marks)), {0} | {number - 1 for number in expected})
         self.change_mines(lambda grey: grey // 20)
-        self.export(*fls, "coco")
+        self.export("coco", "--sensor", "fls")
         self.assertEqual([one["instance_id"] for one in self.coco()[1]["fls-000001.png"]], [2, 3])
         self.assertLess(faint["--min-grey", "0"], faint[()])
         self.assertLess(faint[()], faint["--min-grey", "200"])
@@ -238,9 +238,8 @@ class Export(tool.ToolTest):
         with edited(self.out / "fls/objects/000001.json") as listed:
             listed["objects"][1]["fan"]["mask"] = counts_of(disc | noise)
         for words, expected in (((), disc), (("--min-grey", "0"), disc | noise)):
-            dest = self.folder / f"parts{len(words)}"
-            self.export(self.out, "--sensor", "fls", "--format", "coco", *words, dest=dest)
-            found = self.coco(dest=dest)[1]["fls-000001.png"][0]
+            self.export("coco", "--sensor", "fls", *words)
+            found = self.coco()[1]["fls-000001.png"][0]
             mask = mask_of(found["segmentation"]["counts"], WIDTH, HEIGHT)
             np.testing.assert_array_equal(mask, expected)
             self.assertEqual((found["area"], found["bbox"]), (expected.sum(), box_of(expected)))
@@ -251,12 +250,11 @@ class Export(tool.ToolTest):
         with edited(self.out / "dataset.json") as description:
             description["sensors"][0].update(range_edges_m=[1.0, 30.0], azimuth_edges_rad=[-half, half])
             description["sensors"][1]["range_edges_m"] = [0.0, 0.5]     # of a column
-        fls = "--format", "crops", "--sensor", "fls", "--crop", "20x16"
-        self.export(self.out, *fls, "--pixel-m", "0.5", "--negatives", "2")
+        fls, sss = ("crops", "--sensor", "fls", "--crop", "20x16"), ("crops", "--sensor", "sss", "--pixel-m")
+        self.export(*fls, "--pixel-m", "0.5", "--negatives", "2")
         found = sorted(str(one.relative_to(self.dest)) for one in self.dest.rglob("*.png"))
-        self.assertEqual(len([name for name in found if name.startswith("train/mine/")]), PINGS)
-        self.assertEqual(len([name for name in found if name.startswith("train/tyre/")]), PINGS - 1)
-        self.assertEqual(len([name for name in found if name.startswith("train/background/")]), 2 * PINGS)
+        for kind, count in (("mine", PINGS), ("tyre", PINGS - 1), ("background", 2 * PINGS)):
+            self.assertEqual(sum(name.startswith(f"train/{kind}/") for name in found), count)
         crop = np.asarray(Image.open(self.dest / "train/tyre/fls-000002-3.png"))
         fan = np.asarray(Image.open(self.out / "fls/fan/000002.png")).astype(float)
         self.assertEqual(crop.shape, (16, 20))
@@ -266,19 +264,14 @@ class Export(tool.ToolTest):
         for name in found:
             if "background" in name:
                 self.assertLess(np.asarray(Image.open(self.dest / name)).max(), 121, name)
-        self.refused("needs --pixel-m", *fls)
-        self.refused("'sss' stands still", "--format", "crops", "--sensor", "sss", "--pixel-m", "0.1")
-        rows = "".join(f"{k} {0.5 * k} 0 0 0 0 0 1\n" for k in range(ROWS))
-        (self.out / "trajectory.tum").write_text(rows)
-        dest = self.folder / "strip"
-        self.export(self.out, "--format", "crops", "--sensor", "sss", "--pixel-m", "0.5", "--crop", "17", dest=dest)
-        crop = np.asarray(Image.open(next(dest.glob("train/mine/*.png"))))
+        self.refused("needs --pixel-m", "--format", *fls)
+        self.refused("'sss' stands still", "--format", *sss, "0.1")
+        (self.out / "trajectory.tum").write_text("".join(f"{k} {0.5 * k} 0 0 0 0 0 1\n" for k in range(ROWS)))
+        crop = np.asarray(Image.open(next(self.export(*sss, "0.5", "--crop", "17").glob("train/mine/*.png"))))
         linear = np.asarray(Image.open(self.out / "sss/waterfall.png"))[3:20, :14] / 65535     # its middle is (5.5, 11.5)
         np.testing.assert_allclose(crop[:, 3:], np.floor(255 * np.sqrt(linear) + 0.5), atol=1)
         self.assertEqual(crop[:, :3].max(), 0)
-        dest = self.folder / "rows"
-        self.export(self.out, "--format", "crops", "--sensor", "sss", "--pixel-m", "0.25", "--crop", "32", dest=dest)
-        rows = np.asarray(Image.open(next(dest.glob("train/mine/*.png")))).astype(int)
+        rows = np.asarray(Image.open(next(self.export(*sss, "0.25", "--crop", "32").glob("train/mine/*.png")))).astype(int)
         changes = np.abs(np.diff(rows, axis=0)).max(axis=1) > 0     # pings are two pixels apart
         self.assertLessEqual(changes.sum(), 16)
         left_out = json.loads((dest / "statistics.json").read_text())["left_out"]
@@ -287,8 +280,7 @@ class Export(tool.ToolTest):
 
     def test_yolo(self):
         for words in ((), ("--polygons",)):
-            dest = self.folder / f"yolo{len(words)}"
-            self.export(self.out, "--format", "yolo", "--sensor", "fls", *words, dest=dest)
+            dest = self.export("yolo", "--sensor", "fls", *words)
             text = (dest / "labels/train/fls-000004.txt").read_text()
             number, *values = text.split()
             self.assertEqual((text.count("\n"), number), (1, "0"))
@@ -310,10 +302,10 @@ class Export(tool.ToolTest):
         along, across = ((columns - 20) * a + (rows - 15) * b for a, b in ((np.cos(turn), np.sin(turn)),
                                                                            (-np.sin(turn), np.cos(turn))))
         mask = (np.abs(along) < 11) & (np.abs(across) < 3)
-        path = self.out / "fls/objects/000002.json"
+        path, oriented = self.out / "fls/objects/000002.json", ("yolo", "--sensor", "fls", "--oriented", "--min-grey", "0")
         with edited(path) as listed:
             listed["objects"][1]["fan"] = {"mask": counts_of(mask)}
-        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0")
+        self.export(*oriented)
         number, *values = (self.dest / "labels/train/fls-000002.txt").read_text().splitlines()[0].split()
         corners = np.array(values, float).reshape(4, 2) * (WIDTH, HEIGHT)
         sides = np.diff(corners, axis=0, append=corners[:1])
@@ -331,23 +323,20 @@ class Export(tool.ToolTest):
         self.refused("--oriented takes --format yolo", "--format", "coco", "--oriented")
         with edited(path) as listed:
             listed["objects"][1]["fan"] = {"mask": counts_of(mask & (columns >= 15) | (rows + columns < 3))}    # at the border
-        dest = self.folder / "border"
-        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--oriented", "--min-grey", "0", dest=dest)
-        numbers = [float(number) for path in dest.rglob("fls-*.txt") for line in path.read_text().splitlines()
-                   for number in line.split()[1:]]
+        numbers = [float(number) for path in self.export(*oriented).rglob("fls-*.txt")
+                   for line in path.read_text().splitlines() for number in line.split()[1:]]
         self.assertTrue(all(0 <= number <= 1 for number in numbers))
 
     def test_hugging_face(self):
         """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
-        self.export(self.out, "--format", "hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6",
-                    "--licence", "cc-by-4.0", "--sensor", "fls")
-        self.export(self.out, "--format", "coco", "--sensor", "fls", dest=self.folder / "coco")
+        self.export("coco", "--sensor", "fls")
+        found = self.coco()[1]
+        self.export("hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6", "--licence", "cc-by-4.0", "--sensor", "fls")
         head, text = (self.dest / "README.md").read_text().removeprefix("---\n").split("\n---\n")
         self.assertRegex(head, "^license: cc-by-4.0\n")
         self.assertIn("data_dir: data", head)
         for words in ("# made", "seed 5", "sonarsim 0 rendered", '0 "mine", 1 "tyre"'):
             self.assertIn(words, text)
-        found = self.coco(dest=self.folder / "coco")[1]
         for part, pings in (("train", range(5)), ("test", range(5, PINGS))):
             folder = self.dest / "data" / part
             rows = [json.loads(line) for line in (folder / "metadata.jsonl").read_text().splitlines()]
@@ -362,8 +351,8 @@ class Export(tool.ToolTest):
 
     def test_raw_values_as_fans(self):
         """A fan of raw/ has at each pixel the bin that the fan of its bins' numbers names."""
-        raw_fans = "--format", "yolo", "--image", "raw", "--sensor", "fls"
-        self.refused("has no raw; leave out --image", *raw_fans)
+        raw_fans = "yolo", "--image", "raw", "--sensor", "fls"
+        self.refused("has no raw; leave out --image", "--format", *raw_fans)
         bins = np.arange(120 * 60).reshape(120, 60)
         edges = {"range_edges_m": np.linspace(1, 13, 121).tolist(), "azimuth_edges_rad": np.linspace(-0.6, 0.6, 61).tolist()}
         width, height = 2 * 13 * np.sin(0.6), 13
@@ -381,23 +370,20 @@ class Export(tool.ToolTest):
             for ping in range(PINGS):
                 raw = (bins * 9 % (largest + 1)).astype(np.uint8 if bits <= 8 else np.uint16)
                 Image.fromarray(raw).save(self.out / f"fls/raw/{ping:06}.png")
-            dest = self.folder / f"bits{bits}"
-            self.export(self.out, *raw_fans, dest=dest)
-            found = np.asarray(Image.open(next(dest.rglob("fls-000002.png"))))
+            found = np.asarray(Image.open(next(self.export(*raw_fans).rglob("fls-000002.png"))))
             np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, np.floor(255 * (of_bins * 9 % (largest + 1)) / largest + 0.5)))
         self.assertLess((found == 0).mean(), 0.5)
         with edited(self.out / "dataset.json") as description:
             del description["sensors"][0]["fan"], description["sensors"][0]["files"]["fan"]
-        self.refused("has no fans; set output.fan: true .* or take the pictures of its bins with --bins", *raw_fans)
+        self.refused("has no fans; set output.fan: true .* or take the pictures of its bins with --bins", "--format", *raw_fans)
 
     def test_masks_and_webdataset(self):
-        self.export(self.out, "--format", "masks", "--sensor", "fls")
+        self.export("masks", "--sensor", "fls")
         pixels = np.asarray(Image.open(self.dest / "ann_dir/train/fls-000002.png"))
         np.testing.assert_array_equal(pixels, fan_objects(2)[1][2] + 2 * fan_objects(2)[2][2])
         self.assertEqual(json.loads((self.dest / "meta.json").read_text())["palette"], [[0, 0, 0], [128, 0, 0], [0, 128, 0]])
         self.assertEqual((self.dest / "splits/train.txt").read_text().split()[:2], ["fls-000000", "fls-000001"])
-        self.export(self.out, "--format", "webdataset", "--link", dest=self.folder / "web")
-        with tarfile.open(self.folder / "web/train-000000.tar") as archive:
+        with tarfile.open(self.export("webdataset", "--link") / "train-000000.tar") as archive:
             members = {one.name: archive.extractfile(one).read() for one in archive}
         self.assertEqual(len(members), 2 * (PINGS + 1))
         self.assertEqual(Image.open(io.BytesIO(members["fls-000003.png"])).size, (WIDTH, HEIGHT))
@@ -406,8 +392,8 @@ class Export(tool.ToolTest):
         np.testing.assert_array_equal(mask_of(objects["mask"][1], WIDTH, HEIGHT), fan_objects(3)[2][2])
 
     def test_tiles(self):
-        text = self.export(self.out, "--format", "coco", "--sensor", "sss", "--tile", "24x16", "--min-pixels", "1")
-        self.assertIn("left out: 0 pictures", text)
+        self.export("coco", "--sensor", "sss", "--tile", "24x16", "--min-pixels", "1")
+        self.assertIn("left out: 0 pictures", self.printed)
         found = self.coco()[1]
         self.assertEqual(sorted(found), [f"sss-waterfall-y{top:05}-x00000.png" for top in (0, 16, 32, 44)])
         for top in (0, 16, 32, 44):
@@ -422,27 +408,24 @@ class Export(tool.ToolTest):
 
     def test_split(self):
         split = ("--split", "train=0.5,test=0.5")
-        self.export(self.out, "--format", "coco", *split, "--gap", "4", "--rounds", "6", "--tile", "16x16")
+        self.export("coco", *split, "--gap", "4", "--rounds", "6", "--tile", "16x16")
         # Six stretches of ten poses; four poses around each border are in no part.
         self.assertEqual(list(self.coco("train")[1]), [f"fls-{ping:06}.png" for ping in range(3)])
         self.assertEqual(list(self.coco("test")[1]), [f"fls-{ping:06}.png" for ping in (7,)])
         # A border of twenty poses takes two, not ten.
         parts = poses_parts({"train": 0.8, "val": 0.2}, 20, None, 1)
         self.assertEqual([parts.count(part) for part in ("train", None, "val")], [15, 2, 3])
-        dest = self.folder / "tiles"
-        self.export(self.out, "--format", "yolo", *split, "--gap", "0", "--sensor", "sss", "--tile", "24x30", dest=dest)
+        dest = self.export("yolo", *split, "--gap", "0", "--sensor", "sss", "--tile", "24x30")
         self.assertEqual(len(list(dest.glob("images/*/*.png"))), 2)
 
     def test_a_strip_that_no_part_holds(self):
-        split = ("--split", "train=0.5,test=0.5", "--sensor", "sss", "--format", "yolo")
+        split = ("--format", "yolo", "--sensor", "sss", "--split", "train=0.5,test=0.5")
         self.refused("left for 'train': .* is 24 x 60 pixels; cut it with --tile 24x16", *split)
         self.refused("cut it with --tile 24x16", *split, "--tile", "512")
         self.refused("shows pings of other parts; take a smaller --gap", *split, "--rounds", "6", "--gap", "0")
-        split = ("--split", "train=0.7,val=0.3", *split[2:], "--gap", "0")
+        split = (*split[:-1], "train=0.7,val=0.3", "--gap", "0")
         self.refused("left for 'val': .*cut it with --tile 24x16", *split, "--tile", "24x30")     # only of 'train'
-        self.export(self.out, *split, "--tile", "24x16")
-        self.assertTrue(list(self.dest.glob("images/val/*.png")))
-        self.dest = self.folder / "other"
+        self.assertTrue(list(self.export(*split[1:], "--tile", "24x16").glob("images/val/*.png")))
         self.refused("none of 60 poses is left for 'train'", *split, "--gap", "200")
 
     def test_variants_and_several_datasets(self):
@@ -450,7 +433,7 @@ class Export(tool.ToolTest):
         for name in names:
             write_dataset(self.folder / "many" / name)
         (self.folder / "many/variants.json").write_text(json.dumps({"variants": [{"folder": name} for name in names]}))
-        self.export(self.folder / "many", self.out, "--format", "coco", "--split", "train=0.8,val=0.2", "--sensor", "fls")
+        self.export("coco", "--split", "train=0.8,val=0.2", "--sensor", "fls", sources=(self.folder / "many", self.out))
         train, val = self.coco("train"), self.coco("val")
         one_by_one = [self.folder / "many" / name for name in names]
         self.export(*one_by_one, "--format", "coco", "--split", "train=0.8,val=0.2", "--sensor", "fls",
@@ -496,6 +479,6 @@ class Export(tool.ToolTest):
         fan.symlink_to(self.folder / "secret.png")
         self.refused("000000.png: is missing, or lies behind a link", "--format", "yolo")
         (self.folder / "secret.png").replace(fan)
-        self.dest.mkdir()
-        (self.dest / "mine.txt").write_text("")
+        (self.folder / "none").mkdir()
+        (self.folder / "none/mine.txt").write_text("")
         self.refused("holds something", *coco)
