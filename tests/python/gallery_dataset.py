@@ -3,7 +3,7 @@ import json
 
 import numpy as np
 from PIL import Image
-from tool import counts_of
+from tool import counts_of, sensor, write_description
 
 PINGS = 600  # three parts of the page's data
 SEEN = (0, 3, 599)  # the pings of fls that show the mine
@@ -62,26 +62,16 @@ def write_dataset(folder):
         (folder / name / ("objects.json" if name == "sss" else "objects_0000.json")).write_text(json.dumps(
             {"picture": "waterfall.png", "width": width, "height": height, "pings": 50, "pings_per_pixel": 1,
              "objects": [in_picture(MASKS[name])]}))
-    description = {
-        "format": "sonarsim dataset", "format_version": 3, "program_version": "0.1.0", "complete": True, "mission": "drawn",
-        "seed": 9007199254740993, "poses": PINGS,
-        "labels": {"instances": [{"id": 1, "name": "floor", "class": 1}, {"id": 2, "name": "mine_1", "class": 2}],
-                   "classes": [{"id": 1, "name": "bottom"}, {"id": 2, "name": "mine"}],
-                   "annotations": {"background": ["bottom"]}},
-        "sensors": [
-            {"name": "fls", "kind": "imaging", "every": 1, "full_scale": 1.0, "pings": PINGS,
-             "files": {"fan": "fls/fan/%06d.png", "image": "fls/image/%06d.png", "objects": "fls/objects/%06d.json"},
-             "pictures": [{"title": "fan", "file": "fls/fan/%06d.png", "per": "ping", "boxes_of": "fan"},
-                          {"title": "polar", "file": "fls/image/%06d.png", "per": "ping", "ahead": "down",
-                           "boxes_of": "bins"}],
-             "fan": {"width_px": 40, "height_px": 30}, "range_edges_m": [0.0] * 25, "azimuth_edges_rad": [0.0] * 17},
-            {"name": "sss", "kind": "sidescan", "every": 1, "full_scale": 1.0, "pings": 50, "files": {}, "range_edges_m": [],
-             "pictures": [{"title": "waterfall", "file": "sss/waterfall_view.png", "per": "sensor",
-                           "boxes_of": "sss/waterfall.png", "origin_px": [0, 9], "pixel_px": [1, 1],
-                           "pings_along": "y", "pings_per_pixel": 1}]},
-            {"name": "head", "kind": "scanning", "every": 1, "full_scale": 1.0, "pings": 50, "files": {}, "range_edges_m": [],
-             "pictures": [{"title": "scan", "file": "head/scan_%04d.png", "per": "sweep", "pings": 60,
-                           "boxes_of": "head/scan_%04d.png", "radius_px": 15.5, "width_px": 31}]}]}
-    (folder / "dataset.json").write_text(json.dumps(description))
-    (folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * PINGS)
-    return description
+    labels = {"instances": [{"id": 1, "name": "floor", "class": 1}, {"id": 2, "name": "mine_1", "class": 2}],
+              "classes": [{"id": 1, "name": "bottom"}, {"id": 2, "name": "mine"}], "annotations": {"background": ["bottom"]}}
+    fls = {"files": {"fan": "fls/fan/%06d.png", "image": "fls/image/%06d.png", "objects": "fls/objects/%06d.json"},
+           "pictures": [{"title": "fan", "file": "fls/fan/%06d.png", "per": "ping", "boxes_of": "fan"},
+                        {"title": "polar", "file": "fls/image/%06d.png", "per": "ping", "ahead": "down", "boxes_of": "bins"}],
+           "fan": {"width_px": 40, "height_px": 30}, "range_edges_m": [0.0] * 25, "azimuth_edges_rad": [0.0] * 17}
+    waterfall = {"title": "waterfall", "file": "sss/waterfall_view.png", "per": "sensor", "boxes_of": "sss/waterfall.png",
+                 "origin_px": [0, 9], "pixel_px": [1, 1], "pings_along": "y", "pings_per_pixel": 1}
+    scan = {"title": "scan", "file": "head/scan_%04d.png", "per": "sweep", "pings": 60, "boxes_of": "head/scan_%04d.png",
+            "radius_px": 15.5, "width_px": 31}
+    sensors = [sensor("fls", "imaging", PINGS, **fls), sensor("sss", "sidescan", 50, pictures=[waterfall]),
+               sensor("head", "scanning", 50, pictures=[scan])]
+    return write_description(folder, PINGS, sensors, mission="drawn", seed=9007199254740993, labels=labels)

@@ -11,7 +11,7 @@ from sonarsim.data import open_dataset
 from sonarsim.export import runs
 from sonarsim.export.split import poses_parts
 from sonarsim.export.stand_out import Greys
-from tool import counts_of, disc, edited, mask_of
+from tool import counts_of, disc, edited, mask_of, sensor, write_description
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
 ROWS, COLUMNS = 60, 24
@@ -49,11 +49,6 @@ STRIP = [(2, "mine", disc(COLUMNS, ROWS, 5, 11, 3)), (3, "tyre", disc(COLUMNS, R
 SHADOW = {"x": [10, 20], "y": [8, 12]}      # of the mine in every fan
 
 
-def sensor(name, kind, pings, **more):
-    return {"name": name, "kind": kind, "every": 1, "pings": pings, "range_edges_m": [1.0, 2.0], "full_scale": 1.0,
-            "files": {}, **more}
-
-
 def write_dataset(folder, mission="made"):
     for name in ("fls/fan", "fls/objects", "sss"):
         (folder / name).mkdir(parents=True)
@@ -77,18 +72,14 @@ def write_dataset(folder, mission="made"):
                "contrast_db": 5.0, "visible_share": 1.0}
               for (number, name, mask), side in zip(STRIP, ("port", "starboard"))]
     (folder / "sss/objects.json").write_text(json.dumps({"width": COLUMNS, "height": ROWS, "objects": listed}))
-    description = {
-        "format": "sonarsim dataset", "format_version": 3, "program_version": "0", "complete": True, "mission": mission,
-        "seed": 5,
-        "poses": ROWS, "sensors": [
-            sensor("fls", "imaging", PINGS, azimuth_edges_rad=[-0.5, 0.5], fan={"width_px": WIDTH, "height_px": HEIGHT},
-                   files={"fan": "fls/fan/%06d.png", "objects": "fls/objects/%06d.json"}),
-            sensor("sss", "sidescan", ROWS, pictures=[{"per": "sensor", "boxes_of": "sss/waterfall.png",
-                                                       "file": "sss/waterfall.png"}])],
-        "labels": {"classes": [{"id": k + 1, "name": name} for k, name in enumerate(CLASSES)],
-                   "instances": [], "annotations": {"background": ["bottom"]}}}
-    (folder / "dataset.json").write_text(json.dumps(description))
-    (folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * ROWS)
+    sensors = [
+        sensor("fls", "imaging", PINGS, range_edges_m=[1.0, 2.0], azimuth_edges_rad=[-0.5, 0.5],
+               fan={"width_px": WIDTH, "height_px": HEIGHT}, files={"fan": "fls/fan/%06d.png", "objects": "fls/objects/%06d.json"}),
+        sensor("sss", "sidescan", ROWS, range_edges_m=[1.0, 2.0], pictures=[
+            {"per": "sensor", "boxes_of": "sss/waterfall.png", "file": "sss/waterfall.png"}])]
+    write_description(folder, ROWS, sensors, mission=mission, seed=5, labels={
+        "classes": [{"id": k + 1, "name": name} for k, name in enumerate(CLASSES)], "instances": [],
+        "annotations": {"background": ["bottom"]}})
 
 
 class Export(tool.ToolTest):

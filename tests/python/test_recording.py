@@ -1,5 +1,4 @@
 """Recordings: arrays, and a file of each instrument's format: whole, cut off everywhere, and with hostile numbers."""
-import json
 import random
 import struct
 import unittest
@@ -188,11 +187,8 @@ class RecordingTest(tool.ToolTest):
         for name, array in arrays.items():
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             np.save(self.folder / name, np.asarray(array, np.float32))
-        sensor = {"name": "s", "kind": kind, "every": 1, "pings": 2, "full_scale": 4.0, "files": {},
-                  "range_edges_m": [1.0, 2.0, 3.0, 4.0], "azimuth_edges_rad": [-0.2, 0.0, 0.2], **more}
-        (self.folder / "dataset.json").write_text(json.dumps({
-            "format": "sonarsim dataset", "format_version": 3, "complete": True, "poses": 3, "sensors": [sensor]}))
-        (self.folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * 3)
+        more = {"pings": 2, "full_scale": 4.0, "range_edges_m": [1, 2, 3, 4], "azimuth_edges_rad": [-0.2, 0.0, 0.2], **more}
+        tool.write_description(self.folder, 3, [tool.sensor("s", kind, **more)])
         (self.folder / "mission.resolved.yaml").write_text(
             f"water: {{sound_speed_m_s: 1480}}\nsensors:\n  s: {{instrument: {{{resolved}}}}}\n")
         return open_recording(self.folder)

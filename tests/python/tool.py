@@ -85,6 +85,20 @@ def edited(path):
     path.write_text(json.dumps(content))
 
 
+def sensor(name, kind, pings, **more):
+    """The description of a sensor in dataset.json."""
+    return {"name": name, "kind": kind, "every": 1, "pings": pings, "range_edges_m": [], "full_scale": 1.0, "files": {}, **more}
+
+
+def write_description(folder, poses, sensors, **more):
+    """dataset.json and trajectory.tum of a complete dataset; returns what dataset.json holds."""
+    description = {"format": "sonarsim dataset", "format_version": 3, "program_version": "0", "complete": True, "poses": poses,
+                   "sensors": sensors, **more}
+    (folder / "dataset.json").write_text(json.dumps(description))
+    (folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * poses)
+    return description
+
+
 def disc(width, height, x, y, radius):
     rows, columns = np.mgrid[:height, :width]
     return (columns - x) ** 2 + (rows - y) ** 2 <= radius ** 2
