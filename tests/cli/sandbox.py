@@ -48,22 +48,25 @@ output:
   image: true
 """
 
+
+def mission_of(sensors, output, more="", scene="file: box.gltf"):
+    """A mission with the lines of its sensors, keys of its output and scene, and other lines."""
+    return (f"name: box\nseed: 7\nscene: {{{scene}, materials: materials.csv}}\ntrajectory: {{file: path.csv}}\n"
+            f"sensors:\n{sensors}output: {{folder: out, {output}}}\n{more}")
+
+
 # Each kind of file that a dataset has.
-ALL_FILES = """\
-name: faults
-seed: 7
-scene: {file: box.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
+ALL_FILES = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 16, azimuth_bins: 8,
         noise: {add_sigma: 0.05}}
   mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
   sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
-output: {folder: out, image: true}
-"""
+""", "image: true")
 
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
+# A make that runs the tests hands its own flags down; they are not those of a make that is tested.
+ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
 
 
 def gltf(nodes, meshes, materials=("Concrete",)):
@@ -115,10 +118,19 @@ def box_gltf(half=(2.0, 1.5, 2.0), material="Concrete"):
     return gltf([{"name": "walls", "mesh": 0}], [box_mesh(half)], (material,))
 
 
-def path_csv(poses):
+def csv_of(*poses):
+    """A file of poses; each is a text of t, x, y, z, roll, pitch, yaw."""
+    return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *poses]) + "\n"
+
+
+def path_csv(poses, place="0,0,0,0,0"):
     """`poses` poses that turn slowly on the spot, five a second."""
-    rows = [f"{0.2 * i:.1f},0,0,0,0,0,{3 * i}" for i in range(poses)]
-    return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
+    return csv_of(*(f"{0.2 * i:.1f},{place},{3 * i}" for i in range(poses)))
+
+
+def with_keys(*settings):
+    """The options that set keys of a mission."""
+    return [word for setting in settings for word in ("--set", setting)]
 
 
 def png(rows, bits=8, channels=1, size=None):
@@ -147,7 +159,8 @@ def relative_difference(found, expected):
 
 
 def with_disk(sandbox, mode, call=0):
-    """The environment of a program whose disk fails below `out`; see faulty_disk.cpp."""
+    """The environment of a program whose disk fails below `out`; see faulty_disk.cpp. Its calls are in the file `calls`."""
+    (sandbox.folder / "calls").unlink(missing_ok=True)
     return dict(os.environ, LD_PRELOAD=os.environ["FAULTY_DISK"], FAULTY_DISK_BELOW=str(sandbox.out),
                 FAULTY_DISK_LOG=str(sandbox.folder / "calls"), FAULTY_DISK_MODE=mode, FAULTY_DISK_CALL=str(call))
 
@@ -232,6 +245,10 @@ class Sandbox(unittest.TestCase):
     def succeeds(self, *arguments, **options):
         return self.run_program(SONARSIM, *arguments, **options)
 
+    def reported(self, *arguments, **options):
+        """What a command says in JSON."""
+        return json.loads(self.succeeds(*arguments, "--json", **options).stdout)
+
     def render(self, *arguments, **options):
         return self.run_sonarsim("render", "mission.yaml", *arguments, **options)
 
@@ -252,11 +269,11 @@ class Sandbox(unittest.TestCase):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
                 self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
 
-    def render_whole(self, *arguments):
+    def render_whole(self, *arguments, name="mission.yaml", out="out", **options):
         """The sums of the dataset that a run makes where nothing disturbs it; the dataset is removed again."""
-        self.assert_renders(*arguments)
-        whole = digest(self.out)
-        shutil.rmtree(self.out)
+        self.succeeds("render", name, "--out", out, *arguments, **options)
+        whole = digest(self.folder / out)
+        shutil.rmtree(self.folder / out)
         return whole
 
     def assert_near(self, found, expected, delta=1e-9):
@@ -306,8 +323,7 @@ class Composed(Sandbox):
         super().setUp()
         self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [sheet_mesh()]))
         self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh()]))
-        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n"
-                   + "".join(f"{0.2 * i:.1f},0,0,2,0,20,{3 * i}\n" for i in range(6)))
+        self.write("path.csv", path_csv(6, "0,0,2,0,20"))
         self.edit("mission.yaml", "range_max_m: 6", "range_max_m: 9")
         self.scene()
 

@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 
-from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, gltf, path_csv, run_with, sheet_mesh
+from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, mission_of, path_csv, run_with, sheet_mesh
 
 run_with("numpy")
 PACKAGES = ROOT / "apps/python"
@@ -15,12 +15,7 @@ sys.path.insert(0, str(PACKAGES))
 import numpy as np
 from sonarsim import data as sonarsim_data
 
-MISSION = """\
-name: reader
-seed: 7
-scene: {file: box.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
+MISSION = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 40, azimuth_bins: 24,
         noise: {add_sigma: 0.05}}
   round: {kind: imaging, azimuth_deg: 200, range_max_m: 6, range_bins: 16, azimuth_bins: 90}
@@ -29,8 +24,7 @@ sensors:
   sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
   head: {kind: scanning, range_max_m: 6, range_bins: 16}
-output: {folder: out, image: true, stages: true, labels: [instance, share, class, elevation, objects]}
-"""
+""", "image: true, stages: true, labels: [instance, share, class, elevation, objects]")
 POSES = 7
 
 
@@ -166,26 +160,18 @@ class Reader(Sandbox):
 
 
 CALIBRATED = "range_max_m: 6, range_bins: 16, model: calibrated, instrument: {frequency_hz: 4.0e+5}"
-KEYS = f"""\
-name: keys
-seed: 7
-vehicle: {{navigation: {{position_m: 0.1}}}}
-scene:
-  file: box.gltf
-  materials: materials.csv
-  objects: [{{name: crate, file: crate.gltf, trajectory: {{file: crate.csv}}}}]
-  particles: [{{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}}]
-trajectory: {{file: path.csv}}
-sensors:
+KEYS = mission_of(f"""\
   fls: {{kind: imaging, azimuth_deg: 60, azimuth_bins: 8, {CALIBRATED}}}
   mbes: {{kind: profiling, azimuth_bins: 8, {CALIBRATED}}}
   sss: {{kind: sidescan, {CALIBRATED}}}
   sounder: {{kind: echosounder, {CALIBRATED}}}
   head: {{kind: scanning, {CALIBRATED}}}
+""", "image: true, labels: [instance]", """\
 variants: 1
-vary: [{{key: sensors.fls.mount.rpy_deg.0, uniform: [-2, 2], per: ping}}]
-output: {{folder: out, image: true, labels: [instance]}}
-"""
+vary: [{key: sensors.fls.mount.rpy_deg.0, uniform: [-2, 2], per: ping}]
+vehicle: {navigation: {position_m: 0.1}}
+""", """file: box.gltf, objects: [{name: crate, file: crate.gltf, trajectory: {file: crate.csv}}],
+  particles: [{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}]""")
 
 
 class Keys(Sandbox):
@@ -198,7 +184,7 @@ class Keys(Sandbox):
     def test_the_tables_of_the_page_have_the_keys_of_a_dataset(self):
         """A key stands in its table, or all keys below it do; and a dataset has every key of the tables."""
         self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.1, 0.1, 0.1))]))
-        self.write("crate.csv", path_csv(6).replace(",0,0,0,0,0,", ",1.5,0,0,0,0,"))     # not around the sonars
+        self.write("crate.csv", path_csv(6, "1.5,0,0,0,0"))     # not around the sonars
         self.write("mission.yaml", KEYS)
         self.assert_renders()
         blocks = self.dataset("out/variant_0000")["sensors"]
@@ -250,18 +236,12 @@ class DrawnScene:
 
 FAN = """kind: imaging, azimuth_deg: 110, elevation_deg: 60, range_min_m: 1, range_max_m: 9, range_bins: 250,
         azimuth_bins: 200, mount: {translation_m: [0.5, 0.2, -0.1], rpy_deg: [4, 15, 0]}"""
-POINTS = f"""\
-name: points
-scene: {{file: drawn.gltf, materials: materials.csv}}
-trajectory: {{file: path.csv}}
-sensors:
+POINTS = mission_of(f"""\
   angles: {{{FAN}}}
   cones: {{{FAN}, model: calibrated, instrument: {{frequency_hz: 1.0e+6}}}}
   mbes: {{kind: profiling, range_max_m: 6, range_bins: 200, azimuth_bins: 120}}
   sss: {{kind: sidescan, range_max_m: 6, range_bins: 16}}
-classes: [{{nodes: "ball*", class: ball}}]
-output: {{folder: out, fan: false, labels: [instance, class, elevation]}}
-"""
+""", "fan: false, labels: [instance, class, elevation]", 'classes: [{nodes: "ball*", class: ball}]\n', "file: drawn.gltf")
 
 
 class Points(Sandbox):
@@ -269,7 +249,7 @@ class Points(Sandbox):
         """By each model, and in each frame: a column of the calibrated model is a cone, not an azimuth."""
         drawn = DrawnScene(3)
         self.write("drawn.gltf", gltf(drawn.nodes, drawn.meshes))
-        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,0,0\n1,0.5,-0.2,0.1,5,-3,20\n")
+        self.write("path.csv", csv_of("0,0,0,0,0,0,0", "1,0.5,-0.2,0.1,5,-3,20"))
         self.write("mission.yaml", POINTS)
         self.assert_renders()
         dataset = sonarsim_data.open_dataset(self.out)

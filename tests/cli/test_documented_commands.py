@@ -10,7 +10,7 @@ import sys
 import unittest
 
 from clone import Clone
-from sandbox import MATERIALS, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, path_csv, python_with
+from sandbox import ENVIRONMENT, MATERIALS, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, path_csv, python_with
 
 PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 
@@ -97,7 +97,7 @@ def fill(folder, clone):
 
 def run(command, folder):
     """What is wrong with a command, or nothing."""
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
+    environment = dict(ENVIRONMENT)
     environment["PATH"] = f"{folder}/bin:{os.environ['PATH']}"
     result = subprocess.run(["bash", "-euc", command], cwd=folder, env=environment, text=True,
                             capture_output=True, stdin=subprocess.DEVNULL, timeout=300, check=False)

@@ -72,9 +72,7 @@ class Processor(Sandbox):
     def assert_same_bytes(self, engine, *settings):
         """A shard of the mission by the processor and the rest by the emulator make the dataset of one run."""
         setting = ("-j1", "--set", f"engine={engine}", *settings)
-        self.assert_renders("--overwrite", *setting)
-        whole = digest(self.out)
-        shutil.rmtree(self.out)
+        whole = self.render_whole("--overwrite", *setting)
         self.assert_renders("--shard", "1/2", *setting)
         self.run_program(QEMU, "-cpu", "max", SONARSIM, "render", "mission.yaml", "--quiet", *setting, timeout=500)
         self.assertEqual(digest(self.out), whole, engine)

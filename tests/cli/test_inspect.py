@@ -5,7 +5,7 @@ import os
 import random
 import struct
 
-from sandbox import ALL_FILES, MISSION, ROOT, Sandbox, box_gltf, box_mesh, gltf, obj
+from sandbox import ALL_FILES, MISSION, ROOT, Sandbox, box_gltf, box_mesh, gltf, obj, with_keys
 
 ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
        "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
@@ -19,13 +19,12 @@ class Inspect(Sandbox):
         self.write("mission.yaml", MISSION.split("sensors:")[0].replace("csv\n", "csv\n  water_surface: {height_m: 1, scatters: true}\n", 1)
                    + "water: {wind_m_s: 8}\nsensors: {sss: {preset: sensors/sidescan_400khz.yaml, range_min_m: 0.5, range_max_m: 6}}\n")
         for labels in ("[]", "[objects]"):
-            found = json.loads(self.succeeds("validate", "mission.yaml", "--json", "--set", f"output.labels={labels}").stdout)
-            survey = found["sensors"]["sss"]["survey"]
+            survey = self.reported("validate", "mission.yaml", "--set", f"output.labels={labels}")["sensors"]["sss"]["survey"]
             self.assertAlmostEqual(survey["first_echo_m"][0], 1, delta=0.01)
             self.assertEqual(set(survey["seen_most"]), {"walls"})
 
     def test_a_scene(self):
-        scene = json.loads(self.succeeds("inspect", "box.gltf", "--json").stdout)
+        scene = self.reported("inspect", "box.gltf")
         # Half-extents 2, 1.5, 2 in glTF axes; (x, y, z)_world = (x, -z, y)_gltf.
         self.assertEqual((scene["triangles"], scene["bounds_min_m"], scene["bounds_max_m"]), (12, [-2, -2, -1.5], [2, 2, 1.5]))
         # ((2400 * 3200 - 997 * 1480) / (2400 * 3200 + 997 * 1480))^2 = 0.459.
@@ -77,9 +76,8 @@ class New(Sandbox):
         for fragment in fragments:
             self.assertIn(fragment, printed + text + self.folder.joinpath(f"{mission.name}_materials.csv").read_text())
         self.assertIn(f"next        sonarsim preview {mission.name}.yaml\n", printed)
-        small = [word for key in ("trajectory.count=4", "sensors.fls.azimuth_bins=128", "sensors.fls.range_bins=256",
-                                  "scene.seabed.cell_m=0.5") for word in ("--set", key)]
-        found = json.loads(self.succeeds("validate", f"{mission.name}.yaml", "--json", *small).stdout)
+        small = with_keys("trajectory.count=4", "sensors.fls.azimuth_bins=128", "sensors.fls.range_bins=256", "scene.seabed.cell_m=0.5")
+        found = self.reported("validate", f"{mission.name}.yaml", *small)
         self.assertEqual((found["pings"], found["warnings"]), (4, []))
         self.succeeds("render", f"{mission.name}.yaml", "--out", "out", "--overwrite", *small)
         for ping in range(4):
@@ -123,8 +121,8 @@ class New(Sandbox):
         drawn = ["".join(draw.choices(characters, k=draw.randint(1, 12))) for _ in range(20)]
         names = ["my hull, v2", "seabed", "heightmap", "objects", "bottom", "background", "rock", "rock_1", "null", "true",
                  "1e5", "0x1f", ".5", "~", "none", "all", "x" * 180, *drawn]
-        small = [word for key in ("trajectory.count=2", "sensors.fls.azimuth_bins=16", "sensors.fls.range_bins=32",
-                                  "scene.seabed.cell_m=0.5", "accuracy.relative_l1=0.3") for word in ("--set", key)]
+        small = with_keys("trajectory.count=2", "sensors.fls.azimuth_bins=16", "sensors.fls.range_bins=32",
+                          "scene.seabed.cell_m=0.5", "accuracy.relative_l1=0.3")
         for k, name in enumerate(names):
             with self.subTest(name=name):
                 folder = self.folder / str(k)
@@ -135,8 +133,7 @@ class New(Sandbox):
                 mission = next(folder.glob("*.yaml")).name
                 self.assertIn(f"sonarsim preview {mission}\n", printed)
                 self.assertRegex(mission, r"^[^-][^ ,:'\"$&*]*$")
-                found = json.loads(self.succeeds("validate", mission, "--json", *small, cwd=folder).stdout)
-                self.assertEqual(found["pings"], 2)
+                self.assertEqual(self.reported("validate", mission, *small, cwd=folder)["pings"], 2)
         for name in (b"a\n.obj", b"\xfcber.obj"):
             (self.folder / os.fsdecode(name)).write_text(mesh)
             self.assert_refused(self.run_sonarsim("new", os.fsdecode(name)), "rename it")
@@ -155,14 +152,11 @@ class New(Sandbox):
 
 
 class Preset(Sandbox):
-    def reported(self, *arguments):
-        return json.loads(self.succeeds("preset", *arguments, "--json").stdout)
-
     def test_a_preset_that_came_with_the_program(self):
         text = self.succeeds("preset", "gemini_720is").stdout
         self.assertIn("Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", text)
         self.assertEqual(self.succeeds("preset", "sensors/gemini_720is.yaml").stdout.splitlines()[1:], text.splitlines()[1:])
-        base = self.reported("gemini_720is")
+        base = self.reported("preset", "gemini_720is")
         ranges = base["noise_range_m"]
         self.assertTrue(ranges["mud"] < ranges["sand"] < ranges["rock"], ranges)
         # The range of a sphere is the sonar equation; more source level and less noise reach farther.
@@ -170,20 +164,20 @@ class Preset(Sandbox):
         echo = base["source_level_db"] - 20 - 40 * math.log10(r) - 2 * base["absorption_db_per_m"] * r
         self.assertAlmostEqual(echo, base["noise_db"], places=6)
         for key, name, by in (("source_level_db", "source_level_db", 10.0), ("noise_db", "receiver.noise_db", -3.0)):
-            other = self.reported("gemini_720is", "--set", f"sensors.sonar.instrument.{name}={base[key] + by}")
+            other = self.reported("preset", "gemini_720is", "--set", f"sensors.sonar.instrument.{name}={base[key] + by}")
             self.assertAlmostEqual(other[key] - base[key], by, places=1)
             self.assertGreater(other["noise_range_m"]["sand"], ranges["sand"])
 
     def test_a_file_and_all_of_them(self):
         self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\n")
-        self.assertEqual(self.reported("mine.yaml")["grazing_angle_deg"], 90)
+        self.assertEqual(self.reported("preset", "mine.yaml")["grazing_angle_deg"], 90)
         for text, name, *words in (
                 ("kind: echosounder\n", "mine.yaml", "mine.yaml", "model: calibrated"),
                 ("kind: echosounder\nmodel: calibrated\nazimut_bins: 3\n", "mine.yaml", "mine.yaml:3:1", "azimut_bins"),
                 ("", "gemini_720", "did you mean 'gemini_720is'?", "there are: aris_3000")):
             self.write("mine.yaml", text)
             self.assert_refused(self.run_sonarsim("preset", name), *words)
-        names = [one["preset"] for one in self.reported()]
+        names = [one["preset"] for one in self.reported("preset")]
         self.assertEqual(names, sorted(p.stem for p in (ROOT / "configs/sensors").glob("*.yaml")))
 
     def test_levels_that_do_not_fit(self):
@@ -206,7 +200,7 @@ class Preview(Sandbox):
     """Its picture: tests/preview."""
 
     def test_one_picture_of_every_kind(self):
-        self.write("mission.yaml", ALL_FILES.replace("name: faults", "name: box").replace(
+        self.write("mission.yaml", ALL_FILES.replace(
             "output:", "  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}\noutput:"))
         self.assertIn("box_preview.png: ping 5 of box", self.succeeds("preview", "mission.yaml", "--ping", 5).stderr)
         picture = (self.folder / "box_preview.png").read_bytes()
@@ -223,8 +217,7 @@ class Preview(Sandbox):
         """Turned back to z up, the file has the mission's own scene, and lines, which inspect leaves out."""
         self.write("mission.yaml", ALL_FILES)
         self.succeeds("preview", "mission.yaml", "--gltf", "scene.glb")
-        of_mission, of_file = (json.loads(self.succeeds("inspect", name, "--json").stdout)
-                               for name in ("box.gltf", "scene.glb"))
+        of_mission, of_file = (self.reported("inspect", name) for name in ("box.gltf", "scene.glb"))
         for key in ("triangles", "bounds_min_m", "bounds_max_m"):
             self.assertEqual(of_file[key], of_mission[key])
         data = (self.folder / "scene.glb").read_bytes()
@@ -243,8 +236,8 @@ class Report(Sandbox):
         result = self.succeeds("report", "mission.yaml", *QUICK, "--out", "report", "--json", "elsewhere.json")
         self.assertIn("fls: the noise of the reference is", result.stdout)
         self.assertRegex(result.stdout, r"\n\| cluster \| 5.00 \| 15.0 \|.* the mission's own\n")
-        report = json.loads((self.folder / "elsewhere.json").read_text())
-        self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))
+        report = self.json("elsewhere.json")
+        self.assertEqual(report, self.json("report/report.json"))
         self.assertEqual({row["engine"] for row in report["rows"]}, {"rays", "strips", "octree", "auto"})
         for row in report["rows"]:
             self.assertEqual(set(row), ROW)

@@ -1,7 +1,6 @@
 """sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; and what
 `sonarsim status` says of a job."""
 import fcntl
-import json
 import shutil
 
 from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
@@ -23,10 +22,10 @@ class Merge(Sandbox):
     def assert_merges(self, *folders, rendered=0):
         """The parts stay as they are, and `rendered` pings are in none of them."""
         before = [digest(self.folder / part) for part in folders[:-1]]
-        merged = json.loads(self.succeeds("merge", *folders, "--json").stdout)
+        merged = self.reported("merge", *folders)
         self.assertEqual([digest(self.folder / part) for part in folders[:-1]], before)
         self.assertEqual((merged["missing"], merged["pings"] + merged["skipped"]), (rendered, 25 - rendered))
-        completed = json.loads(self.assert_renders("--out", folders[-1], "--json").stdout)
+        completed = self.reported("render", "mission.yaml", "--out", folders[-1])
         self.assertEqual((completed["pings"], completed["complete"]), (rendered, True))
         self.assertEqual(digest(self.folder / folders[-1]), self.whole)
         self.succeeds("verify", folders[-1])
@@ -49,7 +48,7 @@ class Merge(Sandbox):
         data = path.read_bytes()
         path.write_bytes(data[:128] + bytes(len(data) - 128))
         self.succeeds("merge", "part1", "part2", "part3", "all")
-        self.assertGreater(json.loads(self.assert_renders("--out", "all", "--json").stdout)["pings"], 0)
+        self.assertGreater(self.reported("render", "mission.yaml", "--out", "all")["pings"], 0)
         self.assertEqual(digest(self.folder / "all"), self.whole)
 
     def test_damage_on_the_way_is_found_by_verify(self):
@@ -138,10 +137,8 @@ class Merge(Sandbox):
     def test_a_full_disk_is_named_and_not_the_source(self):
         self.assert_renders("--out", "done")
         for parts in (("part1", "part2", "part3"), ("done",)):
-            log = self.folder / "calls"
-            log.unlink(missing_ok=True)
             self.succeeds("merge", *parts, "out", env=with_disk(self, "none"))
-            calls = log.read_text().splitlines()
+            calls = (self.folder / "calls").read_text().splitlines()
             shutil.rmtree(self.out)
             for number in range(1, len(calls), max(1, len(calls) // 25)):
                 with self.subTest(parts=parts, call=calls[number - 1]):
@@ -152,7 +149,7 @@ class Merge(Sandbox):
 
 class Status(Sandbox):
     def status(self, *folders):
-        return json.loads(self.succeeds("status", "--json", *folders).stdout)
+        return self.reported("status", *folders)
 
     def test_shards_one_after_the_other(self):
         self.assert_renders("--shard", "2/3")

@@ -5,7 +5,7 @@ import re
 import shutil
 import sys
 
-from sandbox import ROOT, Sandbox, box_gltf, gltf, run_with, sheet_mesh
+from sandbox import ROOT, Sandbox, box_gltf, csv_of, gltf, mission_of, run_with, sheet_mesh
 
 run_with("numpy", "PIL", "scipy")
 sys.path.append(str(ROOT / "tests/python"))
@@ -14,12 +14,7 @@ from PIL import Image
 from scipy import ndimage, spatial
 from tool import mask_of
 
-MISSION = """\
-name: labels
-seed: 7
-scene: {file: room.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
+MISSION = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 20, range_min_m: 0.5, range_max_m: 4,
         range_bins: 70, azimuth_bins: 48, every: 2, noise: {add_sigma: 0.05}}
   mbes: {kind: profiling, azimuth_deg: 90, range_max_m: 4, range_bins: 40, azimuth_bins: 24}
@@ -27,25 +22,13 @@ sensors:
   sounder: {kind: echosounder, range_max_m: 4, range_bins: 40}
 classes:
   - {nodes: "pillar*", class: pillar}
-output:
-  folder: out
-  labels: true
-  image: true
-labels: {background: [none]}
-"""
+""", "labels: true, image: true", "labels: {background: [none]}\n", "file: room.gltf")
 
 # A fan that looks down at the foot of a wall.
-WALL = """\
-name: wall
-seed: 7
-scene: {file: room.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
+WALL = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 40, elevation_deg: 15, range_min_m: 0.8, range_max_m: 3, range_bins: 300,
         azimuth_bins: 64, multipath: {method: cluster}, model: calibrated, instrument: {frequency_hz: 1.0e+6}}
-output: {folder: out, labels: [instance, objects]}
-labels: {background: [floor]}
-"""
+""", "labels: [instance, objects]", "labels: {background: [floor]}\n", "file: room.gltf")
 
 
 def room_gltf():
@@ -63,17 +46,10 @@ def picture(path):
 
 
 BEAMS, BINS, STEPS = 96, 260, 8      # steps of the z-buffer in a beam
-OUTLINES = """\
-name: outlines
-seed: 7
-scene: {file: room.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
+OUTLINES = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 40, range_min_m: 0.8, range_max_m: 3.4, range_bins: 260,
         azimuth_bins: 96}
-output: {folder: out, labels: [objects]}
-labels: {background: [none]}
-"""
+""", "labels: [objects]", "labels: {background: [none]}\n", "file: room.gltf")
 
 
 def grid_of(u, v, point):
@@ -206,7 +182,7 @@ class Objects(Sandbox):
         # glTF is y up: (x, y, z) of the world lies at (x, z, -y).
         meshes = [mesh_of((points + np.array(at))[..., [0, 2, 1]] * (1, 1, -1)) for points, at in bodies.values()]
         self.write("room.gltf", gltf(nodes, meshes))
-        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,0,0\n1,0,0,0,0,0,0\n")
+        self.write("path.csv", csv_of("0,0,0,0,0,0,0", "1,0,0,0,0,0,0"))
         self.write("mission.yaml", OUTLINES)
         self.assert_renders()
         expected = silhouettes({name: points + np.array(at) for name, (points, at) in bodies.items()})
@@ -251,7 +227,7 @@ class Objects(Sandbox):
                    .replace('{nodes: "pillar*", class: pillar}',
                             '{materials: "Glass*", class: window}\n  - {nodes: plate, class: hull}'))
         self.assert_renders()
-        labels = json.loads((self.out / "dataset.json").read_text())["labels"]
+        labels = self.dataset()["labels"]
         names = {entry["name"]: entry["id"] for entry in labels["instances"]}
         classes = {entry["id"]: entry["name"] for entry in labels["classes"]}
         self.assertEqual({entry["name"]: classes[entry["class"]] for entry in labels["instances"]},
@@ -266,7 +242,7 @@ class Objects(Sandbox):
                 (labels, "labels: {background: [wals]}\n", "there is no class 'wals' (did you mean 'walls'?)"),
                 (labels, "labels: {background: []}\n", "'background' names classes, auto or none"),
                 (labels, "labels: {mask: silhouette}\n", "unknown mask 'silhouette'", "outline, echo"),
-                ("labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true")):
+                ("labels: true", "fan: false, labels: [fan]", "'fan'", "output.fan: true")):
             self.write("mission.yaml", MISSION)
             self.edit("mission.yaml", old, new)
             self.refused("mission.yaml:", *fragments)
@@ -277,7 +253,7 @@ class Objects(Sandbox):
         self.write("room.gltf", gltf([{"name": "floor", "mesh": 0, "translation": [0, -0.8, 0]},
                                       {"name": "wall", "mesh": 1}],
                                      [sheet_mesh(5.0), ([(1.5, y, z) for y in (-0.8, 1) for z in (-5, 5)], [0, 1, 3, 0, 3, 2], 0)]))
-        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,30,0\n1,0,0,0,0,25,0\n")
+        self.write("path.csv", csv_of("0,0,0,0,0,30,0", "1,0,0,0,0,25,0"))
         self.write("mission.yaml", WALL)
         self.assert_renders()
         sensor = self.dataset()["sensors"][0]

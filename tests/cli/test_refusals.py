@@ -7,7 +7,7 @@ import json
 import math
 import os
 
-from sandbox import Sandbox, box_gltf, box_mesh, digest, gltf, obj, png, sheet_mesh, triangles_of
+from sandbox import Sandbox, box_gltf, box_mesh, csv_of, digest, gltf, obj, png, sheet_mesh, triangles_of
 
 MINE = "{name: mine, file: mine.gltf, position_m: [20, 4, 0.3]}"
 MISSION = f"""\
@@ -61,8 +61,7 @@ def slab_obj():
 def path(z=5.0, offset=(0.0, 0.0), step=1.0):
     """From west to east over the bottom and then north, ten poses."""
     places = [(-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90) for i in range(10)]
-    rows = [f"{step * i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)]
-    return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
+    return csv_of(*(f"{step * i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)))
 
 
 FILES = {"mission.yaml": MISSION, "materials.csv": MATERIALS, "bottom.gltf": bottom(), "mine.gltf": mine(0.4),

@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from sandbox import ROOT, SANITIZED, SONARSIM, Sandbox, digest, gltf, path_csv, sheet_mesh, with_disk
+from sandbox import ROOT, SANITIZED, SONARSIM, Sandbox, digest, gltf, path_csv, sheet_mesh, with_disk, with_keys
 
 try:
     import yaml
@@ -143,8 +143,8 @@ class EstimatedSize(Sandbox):
     """`validate` states the bytes that `render` writes to within a factor of 1.3."""
 
     def assert_states_the_bytes(self, mission, *settings):
-        options = [word for setting in settings for word in ("--set", setting)] + ["--out", self.out]
-        stated = json.loads(self.succeeds("validate", mission, "--json", *options).stdout)["bytes"]
+        options = [*with_keys(*settings), "--out", self.out]
+        stated = self.reported("validate", mission, *options)["bytes"]
         self.succeeds("render", mission, "-q", *options)
         written = sum(path.stat().st_size for path in self.out.rglob("*") if path.is_file())
         self.assertTrue(written / 1.3 < stated < 1.3 * written, (stated, written))
@@ -190,7 +190,7 @@ class Signals(Sandbox):
         settings = ("sensors.fls.azimuth_bins=3072", "sensors.fls.azimuth_deg=360", "sensors.fls.elevation_deg=160",
                     "water.profile={named: summer}", "scene.water_surface={height_m: 5}", "accuracy.relative_l1=1e-4",
                     "output.fan=false", "output.full_scale=1")
-        with self.start("render", "mission.yaml", "-j1", *(w for s in settings for w in ("--set", s))) as process:
+        with self.start("render", "mission.yaml", "-j1", *with_keys(*settings)) as process:
             self.wait_for(lambda: (self.out / "dataset.json").exists(), process)
             begun = busy_s(process.pid)
             self.wait_for(lambda: busy_s(process.pid) > begun + 0.5, process)
@@ -200,12 +200,9 @@ class Signals(Sandbox):
     def test_while_a_product_is_written(self):
         self.edit("mission.yaml", "    kind: imaging\n", "    kind: profiling\n")
         log = self.folder / "calls"
-        self.assert_renders("-j1", env=with_disk(self, "none"))
-        whole = digest(self.out)
+        whole = self.render_whole("-j1", env=with_disk(self, "none"))
         number = next(i for i, call in enumerate(log.read_text().splitlines(), 1)
                       if call.split()[0] in ("fwrite", "write", "fopen") and "bathymetry.tif" in call)
-        shutil.rmtree(self.out)
-        log.unlink()
         with self.start("render", "mission.yaml", "-j1", env=with_disk(self, "stall", number)) as process:
             self.wait_for(lambda: log.exists() and log.read_text().count("\n") >= number, process)
             self.assert_ends_at_once(process)

@@ -13,7 +13,7 @@ import textwrap
 import unittest
 
 import slurm_node
-from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, digest, path_csv, png
+from sandbox import ALL_FILES, ENVIRONMENT, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, digest, path_csv, png
 
 # Runs the tasks of a job at once, and one that depends on a job only if that did well.
 SBATCH = """\
@@ -45,10 +45,8 @@ HEIGHTMAP = "  heightmap: {file: bed.png, material: Concrete, pixel_m: 0.25, hei
 
 class Sweep(Sandbox):
     def sweep(self, *arguments, code=0):
-        # A make that runs the tests hands its own flags down; they are not this sweep's.
-        environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
         return self.run_program("make", "-f", ROOT / "scripts/sweep.mk", f"SONARSIM={SONARSIM}", "MISSION=mission.yaml",
-                                "OUT=grid", *arguments, code=code, env=environment)
+                                "OUT=grid", *arguments, code=code, env=ENVIRONMENT)
 
     def index(self):
         return (self.folder / "grid/index.csv").read_text().splitlines()
@@ -152,12 +150,12 @@ class Clusters(Sandbox):
 
     def test_make_and_kubernetes(self):
         """The bytes of a single run; the commands of the Jobs run here, one index after the other."""
-        environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
         self.run_program("make", "-f", ROOT / "scripts/shards.mk", "-j2", "N=3", f"SONARSIM={SONARSIM}", "MISSION=mission.yaml",
-                         "OUT=all", env=environment)
+                         "OUT=all", env=ENVIRONMENT)
         self.assertEqual(digest(self.folder / "all"), self.whole)
         self.write("bin/sonarsim", f'#!/bin/sh\nexec "{SONARSIM}" "$@"\n').chmod(0o755)
-        environment |= {"PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SHARDS": "2", "MISSION": "mission.yaml", "OUT": "big"}
+        environment = {**ENVIRONMENT, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "SHARDS": "2", "MISSION": "mission.yaml",
+                       "OUT": "big"}
         for name, indices in (("shards", (1, 0)), ("merge", ("",))):
             text = (ROOT / f"scripts/kubernetes/{name}.yaml").read_text()
             command = textwrap.dedent(re.search(r"- \|\n((?: {14}.*\n)+)", text)[1])

@@ -6,18 +6,12 @@ import shutil
 import signal
 import time
 
-from sandbox import Sandbox, digest, path_csv, with_disk
+from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
 
 VARY = """
 variants: 3
 vary:
   - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.2]}
-"""
-RECORDS = """\
-scene: {file: box.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors: {s: {kind: echosounder, range_max_m: 6, range_bins: 16}}
-output: {folder: out}
 """
 SECOND_RUN = "another run is writing into this folder"
 REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
@@ -39,13 +33,6 @@ class Folder(Sandbox):
 
 
 class TwoRuns(Folder):
-    def whole(self, *arguments):
-        """What the command makes where nobody disturbs it."""
-        self.succeeds(*arguments, "--out", "alone")
-        found = digest(self.folder / "alone")
-        shutil.rmtree(self.folder / "alone")
-        return found
-
     def assert_whole(self, whole):
         """The folder holds this dataset and nothing else."""
         self.assertNotIn("is not a file of the dataset", self.succeeds("verify", "out").stderr)
@@ -74,7 +61,7 @@ class TwoRuns(Folder):
                             ("mission.yaml", (((), other), ((), ()), ((), (*other, "--overwrite")),
                                               (half, ("--shard", "2/2")), (half, half), (half, ("--shard", "2/3")),
                                               (half, ("--shard", "2/2", *other)), (half, ())))):
-            wholes = [self.whole("render", name), self.whole("render", name, *other)]
+            wholes = [self.render_whole(*more, name=name, out="alone") for more in ((), other)]
             for first, second in pairs:
                 with self.subTest(name=name, first=first, second=second):
                     codes = self.pair(("render", name, *first), ("render", name, *second), self.draw.uniform(0.0, 0.15))
@@ -90,7 +77,7 @@ class TwoRuns(Folder):
 
     def test_merges(self):
         render, merge = ("render", "mission.yaml"), ("merge", "part1", "part2", "out")
-        whole = self.whole(*render)
+        whole = self.render_whole()
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
         for second in (merge, render):
@@ -166,8 +153,8 @@ class Disks(Sandbox):
                 self.succeeds("verify", "out")
 
     def test_a_complete_dataset_on_a_read_only_disk(self):
-        self.write("mission.yaml", RECORDS)
-        self.write("variants.yaml", RECORDS + "variants: 2\n")
+        self.write("mission.yaml", ALL_FILES)
+        self.write("variants.yaml", ALL_FILES + "variants: 2\n")
         for name in ("variants.yaml", "mission.yaml"):
             shutil.rmtree(self.out, ignore_errors=True)
             self.succeeds("render", name)
@@ -176,6 +163,6 @@ class Disks(Sandbox):
                 result = self.on_disk("readonly", "render", name, *more)
                 self.assertEqual(digest(self.out), before)
                 self.assertIn("complete; ", result.stderr)
-        (self.out / "s/echogram.npy").unlink()
+        (self.out / "sounder/echogram.npy").unlink()
         result = self.on_disk("readonly", "render", "mission.yaml", code=1)
         self.assertIn("Read-only file system", result.stderr)
