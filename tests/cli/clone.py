@@ -28,3 +28,7 @@ class Clone(unittest.TestCase):
             if name and (ROOT / name).is_file():
                 (cls.clone / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(ROOT / name, cls.clone / name)
+
+    def run_script(self, name, *arguments):
+        return subprocess.run([self.clone / "scripts" / name, *arguments], cwd=self.clone, text=True, capture_output=True,
+                              stdin=subprocess.DEVNULL, timeout=300, check=False)

@@ -193,15 +193,17 @@ def run_with(*modules):
 
 
 class Sandbox(unittest.TestCase):
+    FILES = {}      # other than those of every sandbox, by their names
+
     def setUp(self):
-        self._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
-        self.addCleanup(self._temporary.cleanup)
-        self.folder = pathlib.Path(self._temporary.name)
-        self.write("mission.yaml", MISSION)
-        self.write("materials.csv", MATERIALS)
-        self.write("box.gltf", box_gltf())
-        self.write("path.csv", path_csv(6))
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)))
         self.out = self.folder / "out"
+        self.write_all({"mission.yaml": MISSION, "materials.csv": MATERIALS, "box.gltf": box_gltf(), "path.csv": path_csv(6),
+                        **self.FILES})
+
+    def write_all(self, files):
+        for name, content in files.items():
+            self.write(name, content)
 
     def write(self, name, content):
         path = self.folder / name
@@ -314,6 +316,14 @@ class Sandbox(unittest.TestCase):
     def boxes(self, folder="out"):
         """The boxes of all instances in the world, by name."""
         return {one["name"]: one["box_world_m"] for one in self.dataset(folder)["labels"]["instances"]}
+
+
+class Rendered(Sandbox):
+    """Its mission is rendered."""
+
+    def setUp(self):
+        super().setUp()
+        self.assert_renders()
 
 
 class Composed(Sandbox):

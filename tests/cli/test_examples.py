@@ -5,7 +5,6 @@ import json
 import pathlib
 import re
 import shutil
-import subprocess
 
 from clone import Clone
 
@@ -16,17 +15,16 @@ PACKAGE = pathlib.Path("/usr/share/doc/openfoam-examples")
 
 
 class Examples(Clone):
-    def render(self, *arguments):
-        """scripts/render.sh with the program under test: nothing is installed or built."""
-        return subprocess.run([self.clone / "scripts/render.sh", *arguments], cwd=self.clone, text=True,
-                              capture_output=True, stdin=subprocess.DEVNULL, timeout=300, check=False)
+    def assert_refused(self, result, sentence):
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+        self.assertIn(sentence, result.stderr)
 
     def render_group(self, group):
         """What went wrong, by mission: one ping of each, or one variant."""
         faults = {}
         for name in group:
             # Without files the error is not measured, which takes longer than the pings.
-            result = self.render(f"configs/{name}.yaml", "--shard", "1/1000", "--no-files", "--json")
+            result = self.run_script("render.sh", f"configs/{name}.yaml", "--shard", "1/1000", "--no-files", "--json")
             if result.returncode != 0 or not json.loads(result.stdout)["pings"]:
                 faults[name] = f"exit code {result.returncode}\n{result.stdout}{result.stderr}"
         return faults
@@ -62,14 +60,12 @@ class Examples(Clone):
 file: "scenes/tank.glb"  # not scenes/generated/wreck.glb
   objects: [{name: a, file: 'scenes/generated/stock/drum_6.glb', position_m: [1, 0, 1]},
     {name: b, file: scenes/anchor.obj, units: mm, up: z, position_m: [-1, 0, 1]}]""").replace("../", ""))
-        words = ("--shard", "1/60", "--out", "out/own", "own.yaml", "--set")
-        result = self.render(*words, "scene.objects.0.file=scenes/generated/stock/stone_1.glb")
+        words = ("render.sh", "--shard", "1/60", "--out", "out/own", "own.yaml", "--set")
+        result = self.run_script(*words, "scene.objects.0.file=scenes/generated/stock/stone_1.glb")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual({path.name for path in made.rglob("*.*")}, {"drum_6.glb", "stone_1.glb"})
-        result = self.render(*words, "scene.objects.0.file=scenes/generated/reef.glb")
-        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
-        self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
-                      "scripts/make_scenes.py makes backscatter.tif, ", result.stderr)
+        self.assert_refused(self.run_script(*words, "scene.objects.0.file=scenes/generated/reef.glb"), "scenes/generated/reef.glb, "
+                            "which is not there, and no script makes it: scripts/make_scenes.py makes backscatter.tif, ")
 
     def test_a_folder_that_cannot_be_written(self):
         """One sentence and exit code 2. A file or /proc in place of the folder stops root, too."""
@@ -78,7 +74,4 @@ file: "scenes/tank.glb"  # not scenes/generated/wreck.glb
         for words, sentence in ((("seafloor", "--out", file), f"{file}: cannot write seafloor.glb here: File exists"),
                                 (("bathymetry", "--out", "/proc/none"), "/proc/none: cannot write bathymetry.tif here: "),
                                 (("--for", file / "own.yaml"), f"{file / 'own.yaml'}: Not a directory")):
-            result = subprocess.run([self.clone / "scripts/make_scenes.py", *words], text=True, capture_output=True, timeout=60,
-                                    check=False)
-            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
-            self.assertIn(f"error: {sentence}", result.stderr)
+            self.assert_refused(self.run_script("make_scenes.py", *words), f"error: {sentence}")

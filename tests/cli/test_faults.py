@@ -54,11 +54,10 @@ class Faults(Sandbox):
 
 class FaultyDisk(Faults):
     FEWEST_CALLS = 100
+    FILES = {"mission.yaml": ALL_FILES, "path.csv": path_csv(1)}
 
     def setUp(self):
         super().setUp()
-        self.write("mission.yaml", ALL_FILES)
-        self.write("path.csv", path_csv(1))
         self.whole = self.render_whole()
 
     def render_faulty(self, mode, call=0):

@@ -51,10 +51,8 @@ def surface():
 
 
 class Heightmap(Composed):
-    def setUp(self):
-        super().setUp()
-        self.write("bed.png", png([[height(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16))
-        self.write("bed.gltf", gltf([{"name": "heightmap", "mesh": 0}], [surface()]))
+    FILES = {"bed.png": png([[height(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16),
+             "bed.gltf": gltf([{"name": "heightmap", "mesh": 0}], [surface()])}
 
     def assert_same(self, objects="", change=str):
         """The images of the map equal those of the mesh to 1e-4."""
@@ -121,12 +119,9 @@ output: {folder: out, labels: [material, clean]}
                 '    materials: {1: north_west, 2: north_east, 3: south_west, 4: Concrete}}\n')
     DECIBELS = '  backscatter_map: {file: db.png, pixel_m: 10, origin_m: [10, 10]}\n'
 
-    def setUp(self):
-        super().setUp()
-        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"
-                   "north_west,1500,1600\nnorth_east,1700,1700\nsouth_west,1900,1900\n")
-        self.write("quarters.png", png([[1, 2], [3, 4]]))
-        self.write("db.png", png([[0, 6], [3, 0]]))
+    FILES = {"materials.csv": "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"
+                              "north_west,1500,1600\nnorth_east,1700,1700\nsouth_west,1900,1900\n",
+             "quarters.png": png([[1, 2], [3, 4]]), "db.png": png([[0, 6], [3, 0]])}
 
     def rows(self, maps, what):
         """The values of the first and the last ping, at port and at starboard, in the middle of each."""

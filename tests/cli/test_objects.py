@@ -113,10 +113,7 @@ def convex(mask):
 
 
 class Objects(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.write("mission.yaml", MISSION)
-        self.write("room.gltf", room_gltf())
+    FILES = {"mission.yaml": MISSION, "room.gltf": room_gltf()}
 
     def assert_mask(self, text, pixels, box, area, x="x", y="y"):
         """The text of a mask, its box and its area are those of the pixels."""

@@ -237,13 +237,10 @@ WARNED = (
 
 
 class Mistakes(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.make({})
+    FILES = FILES
 
     def make(self, files):
-        for name, content in {**FILES, **files}.items():
-            self.write(name, content)
+        self.write_all({**FILES, **files})
 
     def validate(self, *arguments, code):
         return self.run_sonarsim("validate", "mission.yaml", "--json", *arguments, code=code)

@@ -117,10 +117,10 @@ class Sweep(Sandbox):
 
 
 class Clusters(Sandbox):
+    FILES = {"mission.yaml": ALL_FILES, "path.csv": path_csv(5)}
+
     def setUp(self):
         super().setUp()
-        self.write("mission.yaml", ALL_FILES)
-        self.write("path.csv", path_csv(5))
         self.whole = self.render_whole()
 
     def check_scripts(self, environment, queued=lambda: ""):

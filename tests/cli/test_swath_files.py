@@ -6,7 +6,7 @@ import shutil
 import struct
 import unittest
 
-from sandbox import Sandbox, box_gltf, python_with
+from sandbox import Rendered, Sandbox, box_gltf, python_with
 
 # A flat sea floor at z = -10 of 60 x 60 m and a steel block on it, half a metre each way, at (6, -12).
 MISSION = """\
@@ -51,14 +51,9 @@ def read_xtf(data):
              *struct.unpack_from("<4f", data, at + 32)) for at in (256, 384)], pings
 
 
-class SwathFiles(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.write("mission.yaml", MISSION)
-        self.write("materials.csv", MATERIALS)
-        self.write("floor.gltf", box_gltf((30, 1, 30), "Sand"))  # y is up in glTF
-        self.write("block.gltf", box_gltf((0.5, 0.5, 0.5), "Steel"))
-        self.assert_renders()
+class SwathFiles(Rendered):
+    FILES = {"mission.yaml": MISSION, "materials.csv": MATERIALS, "floor.gltf": box_gltf((30, 1, 30), "Sand"),   # y is up
+             "block.gltf": box_gltf((0.5, 0.5, 0.5), "Steel")}
 
     def test_xtf(self):
         channels, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
@@ -148,15 +143,12 @@ class SwathFiles(Sandbox):
             self.assertEqual(len(filled), filled[-1] + 1 - filled[0])
 
 
-class Bathymetry(Sandbox):
-    def setUp(self):
-        super().setUp()
+class Others(Sandbox):
+    @unittest.skipIf(python_with("meshio") is None, "needs python3-meshio")
+    def test_ply(self):
         self.edit("mission.yaml", "output:\n", "  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, "
                   "azimuth_bins: 16}\noutput:\n")
         self.assert_renders("--set", "output.labels=[instance, class]")
-
-    @unittest.skipIf(python_with("meshio") is None, "needs python3-meshio")
-    def test_ply(self):
         compare = """
 import sys, meshio, numpy
 cloud, rows = meshio.read(sys.argv[1]), numpy.load(sys.argv[2])
@@ -172,12 +164,9 @@ for k, name in enumerate(("instance", "class"), start=5):
         files = [self.out / "mbes" / name for name in ("soundings.ply", "soundings.npy")]
         self.run_program(python_with("meshio"), "-c", compare, *files)
 
-
-class Maps(Sandbox):
-    """Over a heightmap in UTM's zone 32, maps and pings have its coordinates, and GDAL finds its heights there."""
-
     @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
     def test_utm(self):
+        """Over a heightmap in UTM's zone 32, maps and pings have its coordinates, and GDAL finds its heights there."""
         self.write("materials.csv", MATERIALS)
         west, south = 505_000, 5_987_000
         slope = "\n".join(" ".join(f"{-12 + 0.1 * column:.1f}" for column in range(60)) for row in range(60))

@@ -8,15 +8,11 @@ import resource
 import shutil
 import time
 
-from sandbox import ALL_FILES, SANITIZED, Sandbox, digest, path_csv
+from sandbox import ALL_FILES, SANITIZED, Rendered, digest, path_csv
 
 
-class Verify(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.write("mission.yaml", ALL_FILES)
-        self.write("path.csv", path_csv(3))
-        self.assert_renders()
+class Verify(Rendered):
+    FILES = {"mission.yaml": ALL_FILES, "path.csv": path_csv(3)}
 
     def test_whole(self):
         result = self.succeeds("verify", "out")
@@ -29,7 +25,7 @@ class Verify(Sandbox):
         # A stranger does no harm.
         self.write("out/notes.txt", "mine")
         self.write("out/fls/polar/000003.npy", "one too many")
-        verdict = json.loads(self.succeeds("verify", "out", "--json").stdout)
+        verdict = self.reported("verify", "out")
         self.assertEqual((verdict["whole"], verdict["files"], verdict["errors"]), (True, len(listed), []))
         self.assertEqual(verdict["unknown_files"], ["fls/polar/000003.npy", "notes.txt"])
 
@@ -107,12 +103,8 @@ class Verify(Sandbox):
         self.assertEqual(json.loads(result.stdout)["unknown_files"], ["variant_0000/notes.txt"])
 
 
-class Hostile(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.write("path.csv", path_csv(2))
-        self.assert_renders()
-        self.sound = self.dataset()
+class Hostile(Rendered):
+    FILES = {"path.csv": path_csv(2)}
 
     def describe(self, text):
         """Writes dataset.json. Whoever changes a file can give its sum."""
@@ -122,7 +114,7 @@ class Hostile(Sandbox):
         self.write("out/SHA256SUMS", re.sub(r"(?m)^\w+(?=  dataset.json$)", own, sums))
 
     def test_descriptions(self):
-        sound = json.dumps(self.sound)
+        sound = json.dumps(self.dataset())
         for right, wrong, words in (
                 ('"complete": true', '"complete": "yes"', "type must be boolean"),
                 ('"poses": 2', '"poses": 4000000000', "more than ten million poses"),
@@ -150,7 +142,7 @@ class Hostile(Sandbox):
 
     def test_more_files_than_there_are(self):
         """Ten million pings would be a list of gigabytes."""
-        sound = json.dumps(self.sound)
+        sound = json.dumps(self.dataset())
         self.describe(sound.replace('"poses": 2', '"poses": 10000000').replace('"pings": 2', '"pings": 10000000'))
         limit = (1 << 30, 1 << 30)
         for command in (("verify", "out"), ("merge", "out", "merged")):
@@ -162,7 +154,7 @@ class Hostile(Sandbox):
 
     def test_names_of_shards(self):
         """The name of a part of the journal has the number of shards."""
-        self.describe(json.dumps(self.sound | {"complete": False}))
+        self.describe(json.dumps(self.dataset() | {"complete": False}))
         for name in ("1-of-0.txt", "2-of-1.txt", "1-of-4294967296.txt", "1-of-2000000000.txt"):
             self.write(f"out/journal.d/{name}", "")
-        self.assertEqual(json.loads(self.succeeds("status", "out", "--json").stdout)["state"], "interrupted")
+        self.assertEqual(self.reported("status", "out")["state"], "interrupted")
