@@ -64,6 +64,14 @@ ALL_FILES = mission_of("""\
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
 """, "image: true")
 
+# Variants, with a number that is drawn for each of them and one for each ping.
+VARIED = """\
+variants: 3
+vary:
+  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.1]}
+  - {key: vehicle.turn_deg.0, uniform: [-3, 3], per: ping}
+"""
+
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
 # A make that runs the tests hands its own flags down; they are not those of a make that is tested.
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
@@ -257,11 +265,14 @@ class Sandbox(unittest.TestCase):
     def assert_renders(self, *arguments, **options):
         return self.succeeds("render", "mission.yaml", *arguments, **options)
 
+    def assert_has(self, text, *fragments):
+        for fragment in fragments:
+            self.assertIn(fragment, text)
+
     def assert_refused(self, result, *fragments):
         """Exit code 2, every fragment in the message, and nothing written."""
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-        for fragment in fragments:
-            self.assertIn(fragment, result.stderr)
+        self.assert_has(result.stderr, *fragments)
         self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
 
     def refused(self, *fragments, arguments=()):
@@ -285,8 +296,7 @@ class Sandbox(unittest.TestCase):
     def assert_verify_finds(self, *fragments, more=()):
         """`verify out` ends with exit code 1 and these words."""
         result = self.run_sonarsim("verify", "out", *more, code=1)
-        for fragment in fragments:
-            self.assertIn(fragment, result.stderr)
+        self.assert_has(result.stderr, *fragments)
         return result
 
     def assert_shards_agree(self, *arguments, count=2):

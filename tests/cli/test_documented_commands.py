@@ -88,11 +88,9 @@ def fill(folder, clone):
         (folder / "bin/python3").symlink_to(PYTHON)
     (folder / "share").mkdir()
     (folder / "share/sonarsim").symlink_to(clone)
-    (folder / "materials.csv").write_text(MATERIALS)
-    (folder / "mission.yaml").write_text(MISSION.replace("  folder: out\n", ""))
-    (folder / "box.gltf").write_text(box_gltf())
-    (folder / "path.csv").write_text(path_csv(16))
-    (folder / "hull.glb").write_text(box_gltf(material="Hull"))
+    for name, text in {"materials.csv": MATERIALS, "mission.yaml": MISSION.replace("  folder: out\n", ""), "box.gltf": box_gltf(),
+                       "path.csv": path_csv(16), "hull.glb": box_gltf(material="Hull")}.items():
+        (folder / name).write_text(text)
 
 
 def run(command, folder):

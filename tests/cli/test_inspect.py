@@ -73,10 +73,10 @@ class New(Sandbox):
         printed = self.succeeds("new", name).stdout
         mission = self.folder / name.split(".")[0]
         text = mission.with_suffix(".yaml").read_text()
-        for fragment in fragments:
-            self.assertIn(fragment, printed + text + self.folder.joinpath(f"{mission.name}_materials.csv").read_text())
+        self.assert_has(printed + text + self.folder.joinpath(f"{mission.name}_materials.csv").read_text(), *fragments)
         self.assertIn(f"next        sonarsim preview {mission.name}.yaml\n", printed)
-        small = with_keys("trajectory.count=4", "sensors.fls.azimuth_bins=128", "sensors.fls.range_bins=256", "scene.seabed.cell_m=0.5")
+        small = with_keys("trajectory.count=4", "sensors.fls.azimuth_bins=128", "sensors.fls.range_bins=256",
+                          "scene.seabed.cell_m=0.5")
         found = self.reported("validate", f"{mission.name}.yaml", *small)
         self.assertEqual((found["pings"], found["warnings"]), (4, []))
         self.succeeds("render", f"{mission.name}.yaml", "--out", "out", "--overwrite", *small)

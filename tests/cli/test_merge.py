@@ -3,7 +3,7 @@
 import fcntl
 import shutil
 
-from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
+from sandbox import ALL_FILES, VARIED, Sandbox, digest, path_csv, with_disk
 
 
 class Merge(Sandbox):
@@ -184,7 +184,7 @@ class Status(Sandbox):
         self.assertEqual(self.status("out")["state"], "interrupted")
 
     def test_variants(self):
-        self.add("variants: 3\nvary: [{key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.02]}]\n")
+        self.add(VARIED)
         for shard, folders, state, done in (("1/2", ["out"], "interrupted", 2), ("2/2", ["out", "part2"], "complete", 3)):
             self.assert_renders("--shard", shard, "--out", folders[-1])
             reported = self.status(*folders)

@@ -22,7 +22,7 @@ if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that th
     os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
     os.execv(PYTHON, [PYTHON, *sys.orig_argv[1:]])
 sys.path.insert(0, PACKAGE)
-from sandbox import ALL_FILES, Sandbox, path_csv, run_with
+from sandbox import ALL_FILES, MISSION, VARIED, Sandbox, path_csv, run_with
 
 run_with("numpy")
 import numpy as np
@@ -38,12 +38,6 @@ POSES = 5
 # The files of a ping that are pictures for people, or products of several pings.
 PICTURES = {"image", "fan", "stages", "meta", "soundings"}
 IMAGES = {"polar", "waterfall", "echogram", "scan"}
-VARIED = """\
-variants: 3
-vary:
-  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.1]}
-  - {key: vehicle.turn_deg.0, uniform: [-3, 3], per: ping}
-"""
 
 
 def content_of(ping):
@@ -113,8 +107,7 @@ class SameBytes(Package):
         self.assertEqual([content_of(p) for p in merged], [content_of(p) for p in pings])
 
     def test_variants(self):
-        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + VARIED)
-        self.edit("mission.yaml", "image: true", "image: true\n  labels: [instance, shadow]")
+        self.add("  labels: [instance, shadow]\n" + VARIED)
         self.assert_renders()
         mission = self.open()
         self.assertEqual((len(mission.variants), len(mission)), (3, 18))
@@ -282,14 +275,13 @@ class Torch(Package):
     def test_workers_share_a_shard(self):
         """Every number of workers makes the pings of the shard, each once. Objects are text, whose number in a batch is
         free."""
-        plain = (self.folder / "mission.yaml").read_text()
         tools = types.SimpleNamespace(IterableDataset=object, get_worker_info=None)
         module = self.module(types.SimpleNamespace(utils=types.SimpleNamespace(data=tools)))
         for variants, shard, expected in (
                 (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
                 (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
                 ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
-            self.write("mission.yaml", plain + variants)
+            self.write("mission.yaml", MISSION + variants)
             data = module.PingDataset(self.folder / "mission.yaml", shard=shard,
                                       transform=lambda ping: (ping.variant, ping.number))
             self.assertEqual(len(data), len(expected))

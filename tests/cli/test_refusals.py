@@ -53,11 +53,6 @@ def lone_hull():
     return gltf([{"name": "hull", "mesh": 0}], [(points, indices[::-1], material)], ("Sand",))
 
 
-def slab_obj():
-    """A slab of 2 m x 2 m x 0.2 m whose z points up."""
-    return obj(*triangles_of(box_mesh((1.0, 1.0, 0.1))))
-
-
 def path(z=5.0, offset=(0.0, 0.0), step=1.0):
     """From west to east over the bottom and then north, ten poses."""
     places = [(-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90) for i in range(10)]
@@ -78,10 +73,6 @@ def edited(*pairs, text=MISSION):
 
 def mine_as(line):
     return edited(MINE, line)
-
-
-def crate(keys):
-    return mine_as("{name: a, file: mine.gltf, position_m: [5, 0, 0.5], " + keys + "}")
 
 
 def ground(line):
@@ -113,6 +104,9 @@ def moving(keys, more="name: fish, "):
     return mine_as(f"{{{more}file: mine.gltf, trajectory: {{{keys}}}}}")
 
 
+# In place of the mine a slab of 2 m x 2 m x 0.2 m whose z points up.
+SLAB = {"slab.obj": obj(*triangles_of(box_mesh((1.0, 1.0, 0.1))))} | mine_as(
+    "{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}")
 WAY = "waypoints: [{position_m: [4, -2, 1]}, {position_m: [4, 2, 1]}], rate_hz: 5, speed_m_s: "
 
 
@@ -144,9 +138,10 @@ REFUSED = (
     ({"materials.csv": MATERIALS.replace("Steel", "steel")}, "materials.csv: lacks the material 'Steel' of 'mine' in",
      "mine.gltf", "(mission.yaml:6:7)", "did you mean 'steel'?", "add it to the CSV or give scene.material_default"),
     ({"mine.gltf": box_gltf(material="Con\x1b[2Jcrete")}, "Con\\x1b[2Jcrete"),
-    (crate("material: steal"), "mission.yaml:6:7: unknown material 'steal' (did you mean 'Steel'?)", "materials.csv"),
+    (mine_as("{name: a, file: mine.gltf, material: steal}"),
+     "mission.yaml:6:7: unknown material 'steal' (did you mean 'Steel'?)", "materials.csv"),
     ({"mine.gltf": '{"asset": {"version": "2.0"}}'}, "mission.yaml:6:7: 'mine': there is no surface in", "name another file"),
-    (crate("bury_m: 0.1"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
+    (mine_as("{name: a, file: mine.gltf, bury_m: 0.1}"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
     (edited("  objects:\n", "  bottom: [flor]\n  objects:\n"), "mission.yaml:3:3: ", "bottom: no node of", "fits 'flor'"),
     (mine_as(MINE + "\n    - " + MINE), "mission.yaml:7:7: there is an object 'mine' already"),
     (mine_as(MINE.replace("0.3", "-9")), "mission.yaml:6:7: 'mine' lies wholly below the bottom", "place: on_bottom"),
@@ -217,8 +212,7 @@ WARNED = (
     ({"path.csv": path(offset=(27, 0))} | edited("\n    - " + MINE, " []"), "W40", "the scene ends within its view"),
     (edited("azimuth_deg: 90", "azimuth_deg: 1.57"), "W38", "1.57 radians are 89.95 degrees; radians? azimuth_deg: 89.95"),
     ({"path.csv": path(step=0.005)}, "W39", "9 of its 9 pings after the first begin before"),
-    ({"slab.obj": slab_obj()} | mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}"), "W01",
-     "slab.obj stands on its edge with y up and would lie flat with z up: does its z point up? up: z"),
+    (SLAB, "W01", "slab.obj stands on its edge with y up and would lie flat with z up: does its z point up? up: z"),
     (mine_as(MINE.replace("[20, 4, 0.3]}", "[20, 4, 0.3], units: mm}")), "W21", "1 object is not resolved"),
     (mine_as(MINE.replace("[20, 4, 0.3]", "[-45, -45, 0.3]")), "W21", "1 object is not in view"),
     (mine_as(MINE + "\n    - {name: b, file: mine.gltf, scale: 0.5, position_m: [20, 4, 0.3]}"), "W21",
@@ -264,8 +258,7 @@ class Mistakes(Sandbox):
                 # libpng leaves an error by a jump, past what would free memory.
                 env = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
                 result = self.run_sonarsim("render", "mission.yaml", env=env, code=2)
-                for word in words:
-                    self.assertIn(word, result.stderr)
+                self.assert_has(result.stderr, *words)
                 # A library may have its own lines.
                 self.assertEqual(len([x for x in result.stderr.splitlines() if x.startswith("error: ")]), 1, result.stderr)
                 self.assertNotIn("\x1b", result.stderr)
@@ -290,23 +283,21 @@ class Mistakes(Sandbox):
                     self.assertFalse({"W10", "W11", "W13", "W14", "W15", "W16", "W17"} & set(after), numbers)
 
     def test_how_a_file_without_axes_is_read(self):
-        self.make({"slab.obj": slab_obj(), **mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}")})
-        self.assertEqual(json.loads(self.validate(code=0).stdout)["read_as"], ["slab.obj: metres, y up (no `up` given)"])
+        self.make(SLAB)
+        self.assertEqual(self.reported("validate", "mission.yaml")["read_as"], ["slab.obj: metres, y up (no `up` given)"])
         self.assertRegex(self.succeeds("validate", "mission.yaml").stdout, r"read as +slab.obj: metres, y up \(no `up` given\)\n")
         self.assertRegex(self.succeeds("inspect", "slab.obj").stdout, r"^read as +metres, y up \(no `up` given\)\n")
         self.assertIn("question: slab.obj stands on its edge", self.succeeds("inspect", "slab.obj").stdout)
-        said = json.loads(self.succeeds("inspect", "slab.obj", "--up", "z", "--units", "cm", "--json").stdout)
+        said = self.reported("inspect", "slab.obj", "--up", "z", "--units", "cm")
         self.assertEqual((said["read_as"], said["questions"]), ("centimetres, z up", []))
         for up in ("y", "z"):  # an answer is not questioned
             self.make(mine_as("{name: mine, file: slab.obj, up: %s, material: Steel, position_m: [20, 4, 0.3]}" % up))
-            said = json.loads(self.validate(code=0).stdout)
+            said = self.reported("validate", "mission.yaml")
             self.assertEqual((said["read_as"], said["warnings"]), ([f"slab.obj: metres, {up} up"], []))
 
     def test_faults_of_several_files_and_in_json(self):
         self.make({"path.csv": "t_s\n", "materials.csv": "material\n", "bottom.gltf": "{"})
-        said = self.validate(code=2).stderr
-        for name in ("path.csv", "materials.csv", "bottom.gltf"):
-            self.assertIn(name, said)
+        self.assert_has(self.validate(code=2).stderr, "path.csv", "materials.csv", "bottom.gltf")
         self.make(edited("range_max_m", "range_mx_m"))
         fault = json.loads(self.validate(code=2).stderr.splitlines()[-1])
         self.assertEqual((fault["file"], fault["line"], fault["column"]), ("mission.yaml", 13, 5))

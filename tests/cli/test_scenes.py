@@ -86,7 +86,7 @@ class Objects(Composed):
                    "area_max_m: [8, 4]}\n", head="  file: floor.obj\n  materials: materials.csv\n")
         self.succeeds("preview", "mission.yaml", "--out", "preview.png")
         self.assert_renders()
-        reported = json.loads(self.succeeds("inspect", "floor.obj", "--json").stdout)
+        reported = self.reported("inspect", "floor.obj")
         self.assertEqual(reported["materials"], [{"name": "Concrete", "triangles": 2}])
         self.assertEqual(reported["instances"], [{"name": "Stra\\xdfe\\x1b[2J", "triangles": 2}])
         self.objects(OBJECT % ("a.stl", ""))
@@ -97,7 +97,7 @@ class Objects(Composed):
         """In millimetres the post is 900 m long, beyond the bottom. Those about axes: tests/scene/standing_test.cpp."""
         self.write("post.stl", text_stl(*triangles_of(box_mesh((150, 150, 450)))))
         for options, questions in (((), ["it is 900 m long: millimetres? units: mm"]), (("--units", "mm", "--up", "z"), [])):
-            reported = json.loads(self.succeeds("inspect", "post.stl", "--json", *options).stdout)
+            reported = self.reported("inspect", "post.stl", *options)
             self.assertEqual([one for one in reported["questions"] if "long" in one], questions)
         self.assertAlmostEqual(reported["bounds_max_m"][2], 0.45, places=6)
         post = "file: post.stl, material: steel, position_m: [5, 0, 1]}"

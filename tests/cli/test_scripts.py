@@ -66,9 +66,8 @@ class Sweep(Sandbox):
             resolved = (folder / "mission.resolved.yaml").read_text()
             # Paths in it start at the folder of the scene file.
             above = "../" if row["scene.file"].startswith("more/") else ""
-            for line in (f"add_sigma: {row['add_sigma']}\n", "translation_m: [0, 0, 0.5]\n",
-                         f'materials: "{above}materials.csv"'):
-                self.assertIn(line, resolved)
+            self.assert_has(resolved, f"add_sigma: {row['add_sigma']}\n", "translation_m: [0, 0, 0.5]\n",
+                            f'materials: "{above}materials.csv"')
         self.assertEqual(len(rows), 5)
         self.assertNotIn("render", self.sweep(*grid).stdout)
 

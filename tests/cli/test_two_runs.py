@@ -6,13 +6,8 @@ import shutil
 import signal
 import time
 
-from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
+from sandbox import ALL_FILES, MISSION, VARIED, Sandbox, digest, path_csv, with_disk
 
-VARY = """
-variants: 3
-vary:
-  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.2]}
-"""
 SECOND_RUN = "another run is writing into this folder"
 REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
             "holds files that are not a sonarsim dataset", "holds files that are not variants")
@@ -23,8 +18,7 @@ class Folder(Sandbox):
 
     def setUp(self):
         super().setUp()
-        self.write("path.csv", path_csv(self.POSES))
-        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        self.write_all({"path.csv": path_csv(self.POSES), "variants.yaml": MISSION + VARIED})
         self.draw = random.Random(25)
 
     def end(self, process):
@@ -141,7 +135,7 @@ class Disks(Sandbox):
         return self.run_sonarsim(*arguments, code=code, env=with_disk(self, mode))
 
     def test_a_disk_without_locks(self):
-        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        self.write("variants.yaml", MISSION + VARIED)
         self.assert_renders("--out", "part")
         for arguments in (("render", "mission.yaml"), ("render", "variants.yaml"), ("merge", "part", "out")):
             with self.subTest(arguments=arguments):
@@ -153,8 +147,7 @@ class Disks(Sandbox):
                 self.succeeds("verify", "out")
 
     def test_a_complete_dataset_on_a_read_only_disk(self):
-        self.write("mission.yaml", ALL_FILES)
-        self.write("variants.yaml", ALL_FILES + "variants: 2\n")
+        self.write_all({"mission.yaml": ALL_FILES, "variants.yaml": ALL_FILES + "variants: 2\n"})
         for name in ("variants.yaml", "mission.yaml"):
             shutil.rmtree(self.out, ignore_errors=True)
             self.succeeds("render", name)

@@ -20,6 +20,7 @@ vary:
   - {key: vehicle.offset_m.2, uniform: [-0.2, 0.2], per: ping}
   - {key: vehicle.turn_deg.0, choice: [-5, 5], per: ping}
 """
+TWO = ("--set", "variants=2")
 
 
 class Variants(Sandbox):
@@ -112,16 +113,14 @@ class Variants(Sandbox):
 
     def test_merge(self):
         """With more shards than variants."""
-        two = ("--set", "variants=2")
-        self.assert_renders(*two)
-        self.assert_shards_agree(*two, count=3)
-        self.assert_renders(*two, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
+        self.assert_renders(*TWO)
+        self.assert_shards_agree(*TWO, count=3)
+        self.assert_renders(*TWO, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
         self.assert_refused(self.run_sonarsim("merge", "other", "merged"), "holds variants of another mission")
 
     def test_merge_with_a_missing_file(self):
-        two = ("--set", "variants=2")
         for part in ("part1", "part2"):
-            self.assert_renders(*two, "--out", part)
+            self.assert_renders(*TWO, "--out", part)
         for name in ("fls/polar/000001.npy", "SHA256SUMS", "mission.resolved.yaml"):
             path = self.folder / "part1/variant_0001" / name
             path.rename(self.folder / "away")
@@ -134,21 +133,20 @@ class Variants(Sandbox):
 
     def test_what_a_kill_left(self):
         """verify names it; resume, --overwrite and merge remove it; what is not sonarsim's stays."""
-        two = ("--set", "variants=2")
-        self.assert_renders(*two)
+        self.assert_renders(*TWO)
         whole = digest(self.out)
         left = [f"out/{name}.0123456789abcdef.part" for name in (".variants.json", "..variants.json.0123456789abcdef.part",
                                                                  "variant_0000/.dataset.json", "variant_0001/fls/polar/.x")]
         for name in (*left, "out/mine.part"):
             self.write(name, "half")
-        unknown = json.loads(self.succeeds("verify", "out", "--json").stdout)["unknown_files"]
-        self.assertEqual(unknown, sorted(name.removeprefix("out/") for name in (*left, "out/mine.part")))
+        unknown = sorted(name.removeprefix("out/") for name in (*left, "out/mine.part"))
+        self.assertEqual(self.reported("verify", "out")["unknown_files"], unknown)
         (self.out / "mine.part").unlink()
         for more in ((), ("--shard", "1/2"), ("--overwrite",), "merge"):
             with self.subTest(more=more):
                 for name in left:
                     self.write(name, "half")
-                self.succeeds("merge", "part", "out") if more == "merge" else self.assert_renders(*two, *more)
+                self.succeeds("merge", "part", "out") if more == "merge" else self.assert_renders(*TWO, *more)
                 kept = [left[3]] if "--shard" in more else []    # the other shard's
                 self.assertEqual([str(p.relative_to(self.folder)) for p in self.out.rglob("*.part")], kept)
                 if "--overwrite" in more:
@@ -182,11 +180,10 @@ class Variants(Sandbox):
         self.succeeds("verify", "out")
 
     def test_validate_counts(self):
-        found = json.loads(self.succeeds("validate", "mission.yaml", "--json").stdout)
+        found = self.reported("validate", "mission.yaml")
         self.assertEqual((found["variants"], found["pings"], found["images"]), (6, 36, 36))
-        text = self.succeeds("validate", "mission.yaml").stdout
-        for words in ("variants    6\n", "surveyed    variant_0000:\n", "together    6 variants:\n", "36 pings\n"):
-            self.assertIn(words, text)
+        self.assert_has(self.succeeds("validate", "mission.yaml").stdout, "variants    6\n", "surveyed    variant_0000:\n",
+                        "together    6 variants:\n", "36 pings\n")
         self.assert_renders()
         files = sum(path.stat().st_size for path in self.out.rglob("*") if path.is_file())
         self.assertLess(abs(found["bytes"] - files), 0.2 * files)

@@ -105,14 +105,12 @@ class ForeignNumbers(tool.ToolTest):
                 ("sss/objects.json", sound["sss/objects.json"].replace('"width": 24', '"width": 1000000000'), "too large", ()),
                 ("dataset.json", json.dumps(wide), "is not 40000 x 40000 pixels", ()),
                 ("dataset.json", json.dumps(raw), "too large a fan", ("--image", "raw"))):
-            (out / name).write_text(text)
-            with self.subTest(name=name, words=words):
+            with tool.replaced(out / name, text), self.subTest(name=name, words=words):
                 self.assertNotEqual(text, sound[name])
                 self.assert_refused("export", words, out, "--format", "yolo", *more, self.folder / "e", setup=self.LIMITS)
                 if "pose" in words:
                     self.assert_refused("gallery", words, out, setup=self.LIMITS)
                     self.assert_refused("compare", words, out, out, setup=self.LIMITS)
-            (out / name).write_text(sound[name])
 
 
 class Mutations(tool.ToolTest):
@@ -159,14 +157,11 @@ class Mutations(tool.ToolTest):
         self.run_tools(source, TOOLS)
         for k in range(80):
             name = names[0] if draw.random() < 0.7 else draw.choice(names)
-            sound = (source / name).read_text()
-            content = json.loads(sound)
+            content = json.loads((source / name).read_text())
             holder, key = draw.choice(list(self.places(content)))
             if isinstance(holder, dict) and draw.random() < 0.3:
                 del holder[key]
             else:
                 holder[key] = draw.choice(self.VALUES)
-            (source / name).write_text(json.dumps(content))
-            with self.subTest(file=name, key=key):
+            with tool.replaced(source / name, json.dumps(content)), self.subTest(file=name, key=key):
                 self.run_tools(source, TOOLS if k % 8 == 0 else ("export", "gallery"))
-            (source / name).write_text(sound)

@@ -322,7 +322,8 @@ class Export(tool.ToolTest):
         """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
         self.export("coco", "--sensor", "fls")
         found = self.coco()[1]
-        self.export("hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6", "--licence", "cc-by-4.0", "--sensor", "fls")
+        self.export("hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6", "--licence", "cc-by-4.0",
+                    "--sensor", "fls")
         head, text = (self.dest / "README.md").read_text().removeprefix("---\n").split("\n---\n")
         self.assertRegex(head, "^license: cc-by-4.0\n")
         self.assertIn("data_dir: data", head)
@@ -451,20 +452,16 @@ class Export(tool.ToolTest):
                             (("--format", "crops", "--sensor", "fls", "--pixel-m", "50"), "times as large as"),
                             (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):
             self.refused(text, *words)
-        path = self.out / "dataset.json"
-        text = path.read_text()
-        sound = json.loads(text)
-        for change, words in (({"labels": {}}, "has no objects; set output.labels"), ({"poses": "x"}, "'poses' is 'x'"),
-                              ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):
-            path.write_text(json.dumps(sound | change))
-            self.refused(words, *coco)
-        path.write_text(text)
-        facts = self.out / "fls/objects/000003.json"
-        text = facts.read_text()
-        for bad in ("[]", text.replace('"mask": "', '"mask": "0'), text.replace('"fan"', '"f"'), "[" * 100000):
-            facts.write_text(bad)
-            self.refused("000003.json: ", "--format", "yolo")
-        facts.write_text(text)
+        described, facts = self.out / "dataset.json", self.out / "fls/objects/000003.json"
+        sound, text = json.loads(described.read_text()), facts.read_text()
+        for path, bad, words in (
+                (described, json.dumps(sound | {"labels": {}}), "has no objects; set output.labels"),
+                (described, json.dumps(sound | {"poses": "x"}), "'poses' is 'x'"),
+                (described, json.dumps(sound | {"sensors": [sound["sensors"][0] | {"fan": 3}]}), "is damaged"),
+                *((facts, bad, "000003.json: ") for bad in (
+                    "[]", text.replace('"mask": "', '"mask": "0'), text.replace('"fan"', '"f"'), "[" * 100000))):
+            with tool.replaced(path, bad):
+                self.refused(words, *coco)
         fan = self.out / "fls/fan/000000.png"
         fan.rename(self.folder / "secret.png")
         fan.symlink_to(self.folder / "secret.png")

@@ -1,7 +1,6 @@
 """sonarsim.gallery: the page of a dataset, looked at by a headless Chromium."""
 import io
 import json
-import os
 import unittest
 
 import browser
@@ -140,7 +139,6 @@ class InBrowser(Gallery):
             self.assertEqual(window.run("return document.title"), "out - sonarsim")
 
 
-@unittest.skipUnless("SONARSIM" in os.environ, "no program to render with")
 class Rendered(Gallery):
     def test_every_sonar_of_a_rendered_dataset_has_its_objects(self):
         self.render_tank("out", "trajectory.rate_hz=3", "sensors.head.step_deg=40")     # two sweeps

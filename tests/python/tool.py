@@ -73,7 +73,7 @@ class ToolTest(unittest.TestCase):
         before = sorted(self.folder.rglob("*"))
         result = run(name, *words, setup=setup, anew=anew)
         self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
-        self.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+        self.assertRegex(result.stderr, f"^sonarsim {name.replace('_', '-')}: [^\n]*{text}[^\n]*\n$")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
 
 
@@ -83,6 +83,15 @@ def edited(path):
     content = json.loads(path.read_text())
     yield content
     path.write_text(json.dumps(content))
+
+
+@contextlib.contextmanager
+def replaced(path, text):
+    """A file has other content meanwhile."""
+    sound = path.read_text()
+    path.write_text(text)
+    yield
+    path.write_text(sound)
 
 
 def sensor(name, kind, pings, **more):
