@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 
-from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, mission_of, path_csv, run_with, sheet_mesh
+from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, grid_mesh, mission_of, path_csv, run_with, sheet_mesh
 
 run_with("numpy")
 PACKAGES = ROOT / "apps/python"
@@ -229,9 +229,7 @@ class DrawnScene:
         """A sphere of n x 2 n quads, whose facets lie within 0.002 of the radius."""
         rows, columns = np.mgrid[:n + 1, :2 * n + 1] * np.pi / n
         points = radius * np.stack([np.sin(rows) * np.cos(columns), np.cos(rows), np.sin(rows) * np.sin(columns)], -1)
-        first = [j * (2 * n + 1) + i for j in range(n) for i in range(2 * n)]
-        return (points.reshape(-1, 3).tolist(),
-                [k for a in first for k in (a, a + 1, a + 2 * n + 2, a, a + 2 * n + 2, a + 2 * n + 1)], 0)
+        return grid_mesh(points.reshape(-1, 3).tolist(), 2 * n + 1)
 
 
 FAN = """kind: imaging, azimuth_deg: 110, elevation_deg: 60, range_min_m: 1, range_max_m: 9, range_bins: 250,

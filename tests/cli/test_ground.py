@@ -5,7 +5,7 @@ import math
 import shutil
 import unittest
 
-from sandbox import ROOT, Composed, box_mesh, digest, gltf, numbers_of, png, relative_difference
+from sandbox import ROOT, Composed, box_mesh, digest, gltf, grid_mesh, height_of, numbers_of, png, relative_difference
 
 COLUMNS, ROWS, PIXEL = 48, 40, 0.25
 SONAR = """\
@@ -36,22 +36,14 @@ OBJECTS = """\
 MAP = "  heightmap: {file: bed.png, material: Concrete, pixel_m: 0.25, height_scale: 0.001, height_offset_m: -3}\n"
 
 
-def height(row, column):
-    """Whole numbers for PNG: a slope, a ridge along a diagonal, nothing that a turned or mirrored map
-    has, too."""
-    return round(3000 + 12 * column - 5 * row + 150 * math.sin(0.31 * column + 0.17 * row))
-
-
 def surface():
-    """The same ground as a mesh, in glTF's axes (y up): x east, z south."""
-    points = [(PIXEL * (c + 0.5), 0.001 * height(r, c) - 3, -PIXEL * (ROWS - r - 0.5))
-              for r in range(ROWS) for c in range(COLUMNS)]
-    corners = [r * COLUMNS + c for r in range(ROWS - 1) for c in range(COLUMNS - 1)]
-    return points, [k for a in corners for k in (a, a + COLUMNS, a + COLUMNS + 1, a, a + COLUMNS + 1, a + 1)], 0
+    """The ground of the map as a mesh, in glTF's axes (y up): x east, z south."""
+    return grid_mesh([(PIXEL * (c + 0.5), 0.001 * height_of(r, c) - 3, -PIXEL * (ROWS - r - 0.5))
+                      for r in range(ROWS) for c in range(COLUMNS)], COLUMNS)
 
 
 class Heightmap(Composed):
-    FILES = {"bed.png": png([[height(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16),
+    FILES = {"bed.png": png([[height_of(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16),
              "bed.gltf": gltf([{"name": "heightmap", "mesh": 0}], [surface()])}
 
     def assert_same(self, objects="", change=str):

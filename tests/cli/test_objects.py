@@ -5,7 +5,7 @@ import re
 import shutil
 import sys
 
-from sandbox import ROOT, Sandbox, box_gltf, csv_of, gltf, mission_of, run_with, sheet_mesh
+from sandbox import ROOT, Sandbox, box_gltf, csv_of, gltf, grid_mesh, mission_of, run_with, sheet_mesh
 
 run_with("numpy", "PIL", "scipy")
 sys.path.append(str(ROOT / "tests/python"))
@@ -70,14 +70,6 @@ def torus(radius, tube):
 
 def plate(half_y, half_z):
     return grid_of(np.linspace(-1, 1, 161), np.linspace(-1, 1, 161), lambda u, v: (0.2 * u, half_y * u, half_z * v))
-
-
-def mesh_of(points):
-    """A mesh of glTF over a grid of points."""
-    rows, columns = points.shape[:2]
-    first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
-    corners = np.stack([first, first + 1, first + columns, first + 1, first + columns + 1, first + columns], 1)
-    return points.reshape(-1, 3).tolist(), corners.ravel().tolist(), 0
 
 
 def silhouettes(bodies):
@@ -177,7 +169,8 @@ class Objects(Sandbox):
                   "wall": (plate(0.8, 0.5), (3.2, -0.3, 0.1))}
         nodes = [{"name": name, "mesh": k} for k, name in enumerate(bodies)]
         # glTF is y up: (x, y, z) of the world lies at (x, z, -y).
-        meshes = [mesh_of((points + np.array(at))[..., [0, 2, 1]] * (1, 1, -1)) for points, at in bodies.values()]
+        meshes = [grid_mesh(((points + np.array(at))[..., [0, 2, 1]] * (1, 1, -1)).reshape(-1, 3).tolist(), points.shape[1])
+                  for points, at in bodies.values()]
         self.write("room.gltf", gltf(nodes, meshes))
         self.write("path.csv", csv_of("0,0,0,0,0,0,0", "1,0,0,0,0,0,0"))
         self.write("mission.yaml", OUTLINES)

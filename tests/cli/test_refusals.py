@@ -36,11 +36,11 @@ TIFF = b"II*\0\x08\0\0\0" + bytes(30)
 
 
 def bottom(scale=1.0, z=0.0):
-    """A square of 100 m about the origin, with a ripple so that it has some height; its triangles face up."""
+    """A square of 100 m about the origin, with a ripple so that it has some height."""
     points, indices, material = sheet_mesh(50.0, 4, lambda x, _: 0.02 * (round(x / 25) % 2))
     points = [tuple(scale * p for p in point) for point in points]
     return gltf([{"name": "sand", "mesh": 0, "translation": [0, z, 0]}],
-                [(points, indices[::-1], material)], ("Sand",))
+                [(points, indices, material)], ("Sand",))
 
 
 def mine(half):

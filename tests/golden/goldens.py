@@ -27,19 +27,13 @@ from PIL import Image
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 sys.path.append(str(ROOT / "tests/cli"))
-from sandbox import box_mesh, gltf
+from sandbox import box_mesh, gltf, height_of
 
 GOLDENS = HERE / "goldens.txt"
 PREVIEWED = ("imaging_strips", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
 NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
 NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}
-
-
-def heights():
-    """A slope with a ridge along a diagonal: no map that is turned or mirrored is like it."""
-    row, column = np.mgrid[0:40, 0:60]
-    return np.rint(3000 + 12 * column - 5 * row + 150 * np.sin(0.31 * column + 0.17 * row)).astype(np.uint16)
 
 
 def make_scenes(folder):
@@ -50,7 +44,8 @@ def make_scenes(folder):
     for file in (ROOT / "scenes/tank.glb", ROOT / "scenes/materials.csv"):
         shutil.copy(file, folder / "scenes")
     (folder / "scenes/crate.gltf").write_text(gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.4, 0.4, 0.4))], ("steel",)))
-    Image.fromarray(heights()).save(folder / "scenes/heights.png")
+    heights = np.array([[height_of(row, column) for column in range(60)] for row in range(40)], np.uint16)
+    Image.fromarray(heights).save(folder / "scenes/heights.png")
 
 
 def without_builds(value):
