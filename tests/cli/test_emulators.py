@@ -1,7 +1,5 @@
-"""The program under valgrind and on other processors. Memcheck looks on whether every value that a run uses has been
-set, which the sanitizers do not replace: an image once held what the stack had in bins without an echo. On a
-processor that cannot run the program there is a sentence, on all others there are the same bytes. Needs valgrind
-and qemu-x86_64 (Debian: qemu-user)."""
+"""The program under valgrind and on other processors. Memcheck finds values that are used and not set, which the sanitizers
+do not: an image once held what the stack had in bins without an echo. Needs valgrind and qemu-x86_64 (Debian: qemu-user)."""
 import shutil
 import sys
 import unittest

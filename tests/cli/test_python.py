@@ -14,13 +14,9 @@ import unittest
 import unittest.mock
 
 PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE")
-PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
 if not PACKAGE:
     print("needs a build with pybind11 and Python's headers")
     sys.exit(77)
-if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that the module is built for
-    os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
-    os.execv(PYTHON, [PYTHON, *sys.orig_argv[1:]])
 sys.path.insert(0, PACKAGE)
 from sandbox import ALL_FILES, MISSION, VARIED, Sandbox, path_csv, run_with
 

@@ -1,8 +1,5 @@
-"""Mistakes that users make: which are errors and which are warnings, and in which words. A refusal ends with
-exit code 2 and a message that names file, place and cure, and writes nothing. Ranges and names of keys are
-tested in tests/mission.
-
-A survey of a sandy sea floor with a mine on it, which is sound; each row spoils one thing."""
+"""Mistakes that users make: which are errors and which are warnings, and in which words. Ranges and names of keys are
+tested in tests/mission. A survey of a sandy sea floor with a mine on it is sound; each row spoils one thing."""
 import json
 import math
 import os

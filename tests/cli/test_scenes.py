@@ -1,6 +1,5 @@
-"""Scenes that a mission composes of objects, in glTF, OBJ and STL: the same images whatever the format, the units and
-the names of the materials. Objects that move, copies of a mesh, targets in the water and errors of navigation in the
-dataset; their images: tests/golden. What is refused: test_refusals.py."""
+"""Scenes of objects in glTF, OBJ and STL; objects that move, copies of a mesh, targets in the water and errors of navigation
+in the dataset. Their images: tests/golden; what is refused: test_refusals.py."""
 import json
 import math
 import pathlib

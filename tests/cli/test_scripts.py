@@ -1,6 +1,5 @@
-"""Many runs by the scripts: a sweep, one folder per point, nothing done twice, what was interrupted resumes; and shards
-by the tasks of a Slurm array, with their merge: the bytes of a single run. By a Slurm of one node where it is installed,
-and by a stand-in."""
+"""Many runs by the scripts: a sweep, one folder per point; and shards by the tasks of a Slurm array, with their merge: by a
+Slurm of one node where it is installed, and by a stand-in."""
 import collections
 import csv
 import json

@@ -8,6 +8,7 @@ import time
 
 from sandbox import ALL_FILES, MISSION, VARIED, Sandbox, digest, path_csv, with_disk
 
+RENDER = ("render", "mission.yaml")
 SECOND_RUN = "another run is writing into this folder"
 REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
             "holds files that are not a sonarsim dataset", "holds files that are not variants")
@@ -70,11 +71,11 @@ class TwoRuns(Folder):
                     self.assert_whole(wholes[replaced])
 
     def test_merges(self):
-        render, merge = ("render", "mission.yaml"), ("merge", "part1", "part2", "out")
+        merge = ("merge", "part1", "part2", "out")
         whole = self.render_whole()
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-        for second in (merge, render):
+        for second in (merge, RENDER):
             with self.subTest(second=second):
                 self.pair(merge, second, 0.005)
                 self.assert_renders()
@@ -113,16 +114,14 @@ class HeldFolder(Folder):
 
     def test_a_whole_run(self):
         self.assert_renders("--out", "part")
-        render = ("render", "mission.yaml")
         self.assert_seconds_are_refused(
-            self.halted("mission.yaml"), render, (*render, "--seed", "9"), (*render, "--seed", "9", "--overwrite"),
-            (*render, "--shard", "1/2"), ("merge", "part", "out"))
+            self.halted("mission.yaml"), RENDER, (*RENDER, "--seed", "9"), (*RENDER, "--seed", "9", "--overwrite"),
+            (*RENDER, "--shard", "1/2"), ("merge", "part", "out"))
 
     def test_a_shard(self):
-        render = ("render", "mission.yaml")
         self.assert_seconds_are_refused(
-            self.halted("mission.yaml", "--shard", "1/2"), render, (*render, "--overwrite"), (*render, "--shard", "1/2"),
-            (*render, "--shard", "1/3"), meanwhile=(*render, "--shard", "2/2"))
+            self.halted("mission.yaml", "--shard", "1/2"), RENDER, (*RENDER, "--overwrite"), (*RENDER, "--shard", "1/2"),
+            (*RENDER, "--shard", "1/3"), meanwhile=(*RENDER, "--shard", "2/2"))
 
     def test_variants(self):
         self.assert_seconds_are_refused(
@@ -137,7 +136,7 @@ class Disks(Sandbox):
     def test_a_disk_without_locks(self):
         self.write("variants.yaml", MISSION + VARIED)
         self.assert_renders("--out", "part")
-        for arguments in (("render", "mission.yaml"), ("render", "variants.yaml"), ("merge", "part", "out")):
+        for arguments in (RENDER, ("render", "variants.yaml"), ("merge", "part", "out")):
             with self.subTest(arguments=arguments):
                 shutil.rmtree(self.out, ignore_errors=True)
                 result = self.on_disk("nolock", *arguments)

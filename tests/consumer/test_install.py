@@ -52,13 +52,12 @@ def main(build, compiler):
             run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
                      "share/sonarsim/scenes/tank.glb", *(["share/man/man1/sonarsim.1.gz"] if packages else []),
-                     "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
+                     "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so",
+                     *(f"lib/python3/dist-packages/sonarsim/{own}" for own in (
+                         "__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "mission.py", "py.typed", "torch.py"))):
             assert (prefix / name).exists(), f"not installed: {name}"
-        python = prefix / "lib/python3/dist-packages"
-        for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "mission.py", "py.typed", "torch.py"):
-            assert (python / "sonarsim" / name).exists(), f"not installed: {name}"
         assert folder in run("/usr/bin/python3", "-Bc", "import sonarsim, sonarsim.data; print(sonarsim._sonarsim)",
-                             env={**os.environ, "PYTHONPATH": python})
+                             env={**os.environ, "PYTHONPATH": prefix / "lib/python3/dist-packages"})
         scenario = pathlib.Path(folder, "scenario.json")
         scenario.write_text('{"agents": [{"sensors": [{"sensor_type": "ImagingSonar"}]}]}')
         assert "kind: \"imaging\"" in run(prefix / "bin/sonarsim", "import-holoocean", scenario)

@@ -17,8 +17,6 @@ import test_export
 from gallery_dataset import write_dataset
 from sonarsim import command
 
-RECORDING = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, full_value: 255}\nsound_speed_m_s: 1500\nfirst_range_m: 1\n"
-             "range_step_m: 0.01\nbearing_first_deg: -30\nbearing_last_deg: 30\n")
 # The words of a tool that reads IN and writes below OUT, and the packages that it needs.
 TOOLS = {"export": (("IN", "--format", "yolo", "OUT/e"), "numpy PIL"), "gallery": (("IN",), "numpy"),
          "compare": (("IN", "IN", "--out", "OUT/c"), "numpy scipy yaml PIL"),
@@ -65,8 +63,8 @@ class BadInput(tool.ToolTest):
             shutil.rmtree(self.source)
         self.source.mkdir()
         speckle = np.random.default_rng(1).rayleigh(40.0, (4, 240, 96))
-        np.save(self.source / "pings.npy", np.minimum(np.sqrt(255.0 * speckle), 255.0).astype(np.uint8))
-        (self.source / "recording.yaml").write_text(RECORDING)
+        tool.write_recording(self.source, np.minimum(np.sqrt(255.0 * speckle), 255.0).astype(np.uint8),
+                             {"kind": "gamma", "full_value": 255})
         for name in ("compare", "calibrate"):
             self.refused(name, "File too large", 1, FULL_DISK)
         scenario = self.folder / "scenario.json"

@@ -8,7 +8,7 @@ import unittest.mock
 
 import numpy as np
 from scipy import special
-from tool import ROOT, ToolTest
+from tool import ROOT, ToolTest, write_recording
 from sonarsim.calibrate import correlations, image, judge, law, levels, noise, preset, scene  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, delivered  # noqa: E402
@@ -18,18 +18,6 @@ RANGES, BEAMS = 240, 96
 STEP_M, FIRST_M = 0.02, 1.01
 SINES = np.sin(np.radians(24.0)) * (2.0 * (np.arange(BEAMS) + 0.5) / BEAMS - 1.0)
 SINGLE = {"samples": 1.0, "combine": "max", "expansion": 1.0}
-RECORDING = """\
-kind: imaging
-files: pings.npy
-law: {kind: gamma, exponent: 0.5, full_value: 255}
-sound_speed_m_s: 1500
-first_range_m: 1.01
-range_step_m: 0.02
-bearing_first_deg: -24
-bearing_last_deg: 24
-spread: sine
-rate_hz: 10
-"""
 # A start that is wrong in all that the pings tell.
 START = """\
 kind: imaging
@@ -276,8 +264,8 @@ class Command(ToolTest):
         return json.loads((self.folder / "mine.json").read_text())
 
     def refused(self, sentence, values, *options, start="start.yaml"):
-        np.save(self.folder / "pings.npy", np.asarray(values))
-        (self.folder / "recording.yaml").write_text(RECORDING)
+        write_recording(self.folder, values, {"kind": "gamma", "exponent": 0.5, "full_value": 255}, first_range_m=FIRST_M,
+                        range_step_m=STEP_M, bearing_first_deg=-24, bearing_last_deg=24, spread="sine")
         name, *words = self.words("recording.yaml", start, *options)
         self.assert_refused(name, sentence, *words)
 

@@ -228,10 +228,7 @@ class CommandTest(tool.ToolTest):
         pair = [self.folder / str(k) for k in (1, 2)]
         for k, folder in enumerate(pair, 1):
             folder.mkdir()
-            np.save(folder / "pings.npy", drawn(k).values)
-            (folder / "recording.yaml").write_text(
-                "kind: imaging\nfiles: pings.npy\nlaw: {kind: power, full_value: 1}\nsound_speed_m_s: 1500\n"
-                "first_range_m: 1\nrange_step_m: 0.01\nbearing_last_deg: 30\nrate_hz: 1\n")
+            tool.write_recording(folder, drawn(k).values, {"kind": "power", "full_value": 1})
         out = self.folder / "out"
         self.assertIn("figures agree", self.succeeds("compare", *pair, "--out", out))
         self.assertEqual([one.name for one in out.iterdir()], ["compare.json"])

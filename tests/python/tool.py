@@ -94,6 +94,14 @@ def replaced(path, text):
     path.write_text(sound)
 
 
+def write_recording(folder, values, law, **keys):
+    """The array of a fan's pings and its recording.yaml."""
+    np.save(folder / "pings.npy", values)
+    (folder / "recording.yaml").write_text(json.dumps({
+        "kind": "imaging", "files": "pings.npy", "law": law, "sound_speed_m_s": 1500, "first_range_m": 1, "range_step_m": 0.01,
+        "bearing_first_deg": -30, "bearing_last_deg": 30, "rate_hz": 10, **keys}))
+
+
 def sensor(name, kind, pings, **more):
     """The description of a sensor in dataset.json."""
     return {"name": name, "kind": kind, "every": 1, "pings": pings, "range_edges_m": [], "full_scale": 1.0, "files": {}, **more}
