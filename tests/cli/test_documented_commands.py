@@ -144,10 +144,9 @@ class DocumentedCommands(Clone):
         self.assertRegex(result.stdout, r"\nsudo apt-get update .*\nsudo env .* apt-get install .* g\+\+ cmake ")
 
 
-class Snippets(Sandbox):
-    """Of docs/dataset.md: the first one, and those with a mark."""
-
+class Pages(Sandbox):
     def run_snippet(self, python, mark="", more="", folder=None):
+        """What the snippet of docs/dataset.md with a mark, or the first one, prints."""
         page = (ROOT / "docs/dataset.md").read_text().split(f"<!-- {mark} -->" if mark else "# ", 1)[1]
         program = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1) + more
         return self.run_program(python, "-Bc", program, cwd=folder or self.folder,
@@ -187,8 +186,6 @@ class Snippets(Sandbox):
         self.assertGreater(len(losses), 1, lines)
         self.assertLess(losses[-1], losses[0])
 
-
-class Figures(unittest.TestCase):
     def test_figures_of_the_readme(self):
         readme = (ROOT / "README.md").read_text()
         self.assertLessEqual(len(readme.split()), 850)

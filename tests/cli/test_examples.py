@@ -42,13 +42,12 @@ class Examples(Clone):
                 self.assertEqual(faults, {})
 
     def test_each_stage_can_be_left_out_of_its_mission(self):
-        """The table of docs/calibrated.md: its keys and its missions exist."""
+        """The table of docs/calibrated.md: its keys exist; that its missions do: tests/docs.py."""
         table = (self.clone / "docs/calibrated.md").read_text().split("## What each stage changes", 1)[1].split("\n## ", 1)[0]
         keys, missions = re.findall(r"`(\w+): .*?`", table), re.findall(r"\(\.\./configs/(\w+)\.yaml\)", table)
         self.assertGreater(min(len(keys), len(missions)), 15)
         for key in keys:
             self.assertIn(f"\n| `{key}` |", (self.clone / "docs/mission.md").read_text())
-        self.assertLessEqual(set(missions), {path.stem for path in (self.clone / "configs").glob("*.yaml")})
 
     def test_only_what_is_named_is_made(self):
         """In quotes, in a list, in an option; not in a comment. A file that no script makes is refused."""

@@ -120,7 +120,7 @@ class FaultyDisk(Faults):
                 self.assertIn("No space left on device", result.stderr)
 
 
-class RandomSignals(Faults):
+class Ends(Faults):
     def test_signals_at_random_moments(self):
         self.write("path.csv", path_csv(120))
         start = time.monotonic()
@@ -204,8 +204,6 @@ class RandomSignals(Faults):
             process.communicate(timeout=60)
         self.assertIn(process.returncode, {-signal.SIGINT, -signal.SIGTERM, 130, 143})
 
-
-class Machine(Faults):
     @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
     def test_memory_runs_out_anywhere(self):
         """From what suffices down to what the libraries cannot even be loaded with."""

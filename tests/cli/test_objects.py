@@ -39,12 +39,6 @@ def room_gltf():
     return json.dumps(room)
 
 
-def picture(path):
-    """Its pixels [row, column]; of a picture with a table of colours, their numbers."""
-    with Image.open(path) as image:
-        return np.asarray(image)
-
-
 BEAMS, BINS, STEPS = 96, 260, 8      # steps of the z-buffer in a beam
 OUTLINES = mission_of("""\
   fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 40, range_min_m: 0.8, range_max_m: 3.4, range_bins: 260,
@@ -119,7 +113,8 @@ class Objects(Sandbox):
         for sensor, pings in (("fls", (0, 2, 4)), ("mbes", (0, 3))):
             for ping in pings:
                 found = {one["id"]: one for one in self.objects_of(ping, sensor)}
-                bins, fan = (picture(self.out / f"{sensor}/{name}/{ping:06}.png") for name in ("instance", "fan_instance"))
+                bins, fan = (np.asarray(Image.open(self.out / f"{sensor}/{name}/{ping:06}.png"))
+                             for name in ("instance", "fan_instance"))
                 self.assertEqual(set(found), set(np.unique(bins)) - {0})
                 for number, one in found.items():
                     mask = bins == number
@@ -222,7 +217,7 @@ class Objects(Sandbox):
         classes = {entry["id"]: entry["name"] for entry in labels["classes"]}
         self.assertEqual({entry["name"]: classes[entry["class"]] for entry in labels["instances"]},
                          {"plate": "hull", "plate.Glass.001": "window", "wall": "wall"})
-        ids = picture(self.out / "fls/instance/000000.png")
+        ids = np.asarray(Image.open(self.out / "fls/instance/000000.png"))
         starboard, port = (set(np.unique(half)) - {0} for half in (ids[:, :24], ids[:, 24:]))
         self.assertEqual((port, starboard), ({names["plate.Glass.001"]}, {names["plate"]}))
 

@@ -9,20 +9,15 @@ examples_test.cpp run what is new.
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "consumer"))
+from test_install import run
 
 # The example, the most files that it may touch in lib, and the folder of its own that is not counted.
 EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "simulate/lambert"),
             ("add_wake", 7, None))
-
-
-def run(*command, cwd=None):
-    done = subprocess.run([str(word) for word in command], cwd=cwd, capture_output=True, text=True,
-                          check=False)
-    assert done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}"
-    return done.stdout
 
 
 def overlay_of(root, example, folder):

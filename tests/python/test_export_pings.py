@@ -68,12 +68,9 @@ class Pings(tool.ToolTest):
         self.export("--format", "holoocean", "--sensor", "fls", "--clean", "--mesh", TANK)
         self.assertEqual((self.folder / "dest/heights.tif").read_bytes(), bed.read_bytes())
         config = json.loads((self.folder / "dest/Config.json").read_text())
-        for sensor in config["agents"][0]["sensors"]:
-            if sensor["sensor_type"] != "ImagingSonar":
-                continue
-            own = sensor["configuration"]
-            hfov, vfov = np.radians(own["Azimuth"]), np.radians(own["Elevation"])
-            r_min, r_max = own["RangeMin"], own["RangeMax"]
+        own = [one["configuration"] for one in config["agents"][0]["sensors"] if one["sensor_type"] == "ImagingSonar"][-1]
+        hfov, vfov = np.radians(own["Azimuth"]), np.radians(own["Elevation"])
+        r_min, r_max = own["RangeMin"], own["RangeMax"]
         # SonarSplat takes the last sensor, others the keys at the head; AONeuS takes two more.
         self.assertEqual(config["agents"][0]["sensors"][-1]["configuration"], {key: config[key] for key in own})
         self.assertEqual((config["ds_factor"], config["simple_denoise"]), (1.0, False))
