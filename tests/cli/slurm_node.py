@@ -49,14 +49,6 @@ def path_of(name):
     return shutil.which(name, path=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
 
 
-def free_ports(count):
-    with contextlib.ExitStack() as stack:
-        sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
-        for one in sockets:
-            one.bind(("127.0.0.1", 0))
-        return [one.getsockname()[1] for one in sockets]
-
-
 @contextlib.contextmanager
 def one_node(folder):
     """Yields the environment in which sbatch and the others talk to this Slurm. RuntimeError with
@@ -68,9 +60,10 @@ def one_node(folder):
     key = folder / "munge.key"
     key.write_bytes(os.urandom(128))
     key.chmod(0o600)
+    with socket.create_server(("127.0.0.1", 0)) as one, socket.create_server(("127.0.0.1", 0)) as other:
+        ports = [free.getsockname()[1] for free in (one, other)]
     (folder / "slurm.conf").write_text(CONFIGURATION.format(
-        host=socket.gethostname().split(".")[0], ports=free_ports(2), folder=folder,
-        cpus=os.cpu_count()))
+        host=socket.gethostname().split(".")[0], ports=ports, folder=folder, cpus=os.cpu_count()))
     (folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\nCgroupAutomount=no\n")
     environment = dict(os.environ, SLURM_CONF=str(folder / "slurm.conf"))
     daemons = []

@@ -24,9 +24,7 @@ TWO = ("--set", "variants=2")
 
 
 class Variants(Sandbox):
-    def setUp(self):
-        super().setUp()
-        self.add(VARY)
+    FILES = {"mission.yaml": MISSION + VARY}
 
     def test_all_differ_and_come_again(self):
         self.assert_renders()

@@ -19,8 +19,7 @@ KEYS = {"right": "\ue014", "left": "\ue012", "up": "\ue013", "down": "\ue015", "
 @contextlib.contextmanager
 def opened(width=1300, height=850):
     """A Browser with one window."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
+    with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     with (tempfile.TemporaryDirectory(prefix="sonarsim-browser-") as profile,
           subprocess.Popen([CHROMEDRIVER, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as driver):

@@ -28,7 +28,7 @@ FULL_DISK = ("import resource, signal; resource.setrlimit(resource.RLIMIT_FSIZE,
 class BadInput(tool.ToolTest):
     def setUp(self):
         super().setUp()
-        self.source, self.out = self.folder / "in", self.folder / "out"
+        self.source = self.folder / "in"
         self.out.mkdir()
 
     def refused(self, name, text, code=2, setup="", anew=False):

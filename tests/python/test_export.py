@@ -85,7 +85,6 @@ def write_dataset(folder, mission="made"):
 class Export(tool.ToolTest):
     def setUp(self):
         super().setUp()
-        self.out = self.folder / "out"
         write_dataset(self.out)
 
     def export(self, kind, *words, sources=()):

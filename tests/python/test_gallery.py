@@ -30,10 +30,6 @@ CENTRES = """
 
 
 class Gallery(tool.ToolTest):
-    def setUp(self):
-        super().setUp()
-        self.out = self.folder / "out"
-
     def write_page(self):
         self.succeeds("gallery", self.out)
 

@@ -49,6 +49,7 @@ class ToolTest(unittest.TestCase):
 
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="sonarsim-")))
+        self.out = self.folder / "out"
 
     def sonarsim(self, *words, code=0):
         result = subprocess.run([os.environ["SONARSIM"], *words], cwd=self.folder, text=True, capture_output=True, check=False)
