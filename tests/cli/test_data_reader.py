@@ -7,7 +7,8 @@ import shutil
 import sys
 import tempfile
 
-from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, grid_mesh, mission_of, path_csv, run_with, sheet_mesh
+from sandbox import (IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, grid_mesh, mission_of, path_csv, run_with,
+                     sheet_mesh)
 
 run_with("numpy")
 PACKAGES = ROOT / "apps/python"
@@ -36,10 +37,9 @@ class Reader(Sandbox):
         cls.rendered = tempfile.mkdtemp(prefix="sonarsim-", dir=IN_MEMORY)
         cls.addClassCleanup(shutil.rmtree, cls.rendered)
         maker = Sandbox()
+        maker.FILES = {"box.gltf": box_gltf().replace('"walls"', '"W\\u00e4nde"'), "mission.yaml": MISSION,
+                       "path.csv": path_csv(POSES)}
         maker.setUp()
-        maker.write("box.gltf", box_gltf().replace('"walls"', '"W\\u00e4nde"'))
-        maker.write("mission.yaml", MISSION)
-        maker.write("path.csv", path_csv(POSES))
         maker.assert_renders("--out", cls.rendered + "/out")
         maker.doCleanups()
 
