@@ -135,12 +135,20 @@ TEST_CASE("rays and strips agree within twice the error goal") {
     SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);
     set_range(side, side.range_min_m, 12.0, 230);
     side.elevation_deg = 6.0;
-    SonarConfig sounder = calibrated(default_sonar(SonarKind::echosounder), 2e5);
-    sounder.opening_deg = 24.0;
-    set_range(sounder, sounder.range_min_m, 10.0, 190);
-    sounder.instrument.beam.width_deg = 7.0;
+    std::vector<SonarConfig> configs{side};
+    Uniform random(17);
+    for (const double opening_deg : {12.0, 24.0, 40.0}) {
+        // The beam may be much narrower than the view.
+        SonarConfig& sounder =
+            configs.emplace_back(calibrated(default_sonar(SonarKind::echosounder), 2e5));
+        sounder.opening_deg = opening_deg;
+        set_range(sounder, sounder.range_min_m, 10.0, 190);
+        sounder.instrument.beam.width_deg =
+            opening_deg * std::pow(10.0, random.between(-1.5, -0.5));
+    }
     for (const Scene& scene : {flat_bottom(), with_objects}) {
-        for (const SonarConfig& config : {side, sounder}) {
+        for (const SonarConfig& config : configs) {
+            CAPTURE_ALL(config.opening_deg, config.instrument.beam.width_deg);
             const Sonar sonar = make_sonar(config, {0.02});
             const std::vector<float> rays = expected_image(sonar, scene, EngineKind::rays);
             const std::vector<float> strips = expected_image(sonar, scene, EngineKind::strips);

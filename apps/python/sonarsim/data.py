@@ -401,7 +401,7 @@ def own_file(folder, inner, is_folder=False):
     path = folder / inner
     there = path.is_dir() if is_folder else path.is_file()
     if not there or os.path.realpath(path) != os.path.join(os.path.realpath(folder), inner):
-        raise DataError(f"{path}: is missing, or lies behind a link")
+        raise DataError(f"{path}: is missing, or lies behind a link; the render command that made the dataset completes it")
     return path
 
 
