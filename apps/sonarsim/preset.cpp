@@ -24,9 +24,8 @@ std::string preset_path(const std::string& name) {
         const std::filesystem::path file = preset_file(path, std::filesystem::current_path());
         if (!file.empty()) return file.string();
     }
-    throw InputError(
-        Location{name},
-        "is not a file, and no preset of this name came with the program" + shipped_hint(name));
+    refuse({name}, "is not a file, and no preset of this name came with the program{}",
+           shipped_hint(name));
 }
 
 /// A mission of the preset alone, whose scene is never opened.
@@ -37,9 +36,8 @@ Mission mission_of(const std::string& name, const std::vector<std::string>& sett
         "sensors: {sonar: {preset: " +
         quoted_text(preset_path(name)) + "}}\n";
     Mission mission = parse_mission(text, name, {}, settings, sonar_keys());
-    if (mission.sensors.front().model != ModelKind::calibrated) {
+    if (mission.sensors.front().model != ModelKind::calibrated)
         throw InputError(Location{name}, "has no levels: they belong to model: calibrated");
-    }
     return mission;
 }
 

@@ -48,11 +48,10 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
         return true;
     });
     if (settings.empty()) {
-        throw InputError({arguments.mission.file.string()},
-                         refusals.empty()
-                             ? "--engines: no setting of these engines suits the range "
-                               "bins of this mission; add another engine"
-                             : *refusals.begin());
+        refuse({arguments.mission.file.string()}, "{}",
+               refusals.empty() ? "--engines: no setting of these engines suits the range "
+                                  "bins of this mission; add another engine"
+                                : *refusals.begin());
     }
     return settings;
 }
@@ -62,18 +61,16 @@ int report(const ReportArguments& arguments) {
     const Mission mission = without_water_echoes(whole);
     const Location where{arguments.mission.file.string()};
     if (mission.variants > 0)
-        throw InputError(where,
-                         "the report measures one scene, and this mission has variants; give it "
-                         "the mission.resolved.yaml of one of them, or --set variants=0 --set "
-                         "vary=[]");
+        refuse(where,
+               "the report measures one scene, and this mission has variants; give it the "
+               "mission.resolved.yaml of one of them, or --set variants=0 --set vary=[]");
     const Assembly assembly = assemble(mission);
     if (!assembly.scene.bodies.empty())
         throw InputError(where,
                          "the report measures scenes that stand still; leave the trajectories of "
                          "objects out");
     if (assembly.scene.sound_profile)
-        throw InputError(where,
-                         "the report measures straight paths of sound; leave water.profile out");
+        refuse(where, "the report measures straight paths of sound; leave water.profile out");
     log_warnings(reading_warnings(assembly.scene));
 
     ReportOptions options = arguments.report;

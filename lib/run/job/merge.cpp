@@ -174,10 +174,8 @@ MergeSummary merge_parts(const std::vector<fs::path>& parts, const fs::path& out
                          const ProgressCallback& progress, const std::atomic<bool>& stop) {
     for (const fs::path& part : parts) {
         std::error_code absent;
-        if (fs::equivalent(part, out, absent)) {
-            throw InputError({out.string()},
-                             "is one of the parts; name another folder to write to");
-        }
+        if (fs::equivalent(part, out, absent))
+            refuse({out.string()}, "is one of the parts; name another folder to write to");
         require_own_dataset(part, "");
     }
     MergeSummary summary;

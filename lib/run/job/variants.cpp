@@ -24,9 +24,8 @@ constexpr const char* variants_format = "sonarsim variants";
 
 /// InputError for other variants than expected.
 [[noreturn]] void refuse_variants(const fs::path& folder, const std::string& which) {
-    throw InputError(
-        {folder.string()},
-        "holds variants of another mission, number, seed or version of sonarsim" + which);
+    refuse({folder.string()},
+           "holds variants of another mission, number, seed or version of sonarsim{}", which);
 }
 
 /// True if `found` is equal to `json` but may have only the first of its variants.

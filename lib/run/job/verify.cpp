@@ -41,10 +41,9 @@ std::map<std::string, std::string> read_checksums(const fs::path& file) {
         // The last line of a file that was cut off has no line feed.
         if (lines.eof() || name.empty() || name.is_absolute() ||
             std::ranges::find(name, fs::path("..")) != name.end()) {
-            throw InputError({file.string(), number},
-                             "is not a SHA-256 sum, two blanks and the name of a file of the "
-                             "dataset; remove SHA256SUMS, and the render command that made the "
-                             "dataset writes it again");
+            refuse({file.string(), number},
+                   "is not a SHA-256 sum, two blanks and the name of a file of the dataset; remove "
+                   "SHA256SUMS, and the render command that made the dataset writes it again");
         }
         sums[name.string()] = line.substr(0, digits);
     }

@@ -68,10 +68,9 @@ std::optional<std::size_t> class_index(const SceneObjects& objects, const std::s
 std::size_t class_named(const Mission& mission, const SceneObjects& objects, const char* key,
                         const std::string& name) {
     if (const auto index = class_index(objects, name)) return *index;
-    throw InputError(mission.labels.place,
-                     std::string("labels.") + key + ": there is no class '" + printable(name) +
-                         "'" + did_you_mean(name, objects.classes) +
-                         "; there are: " + printable(listed(objects.classes)));
+    refuse(mission.labels.place, "labels.{}: there is no class '{}'{}; there are: {}", key,
+           printable(name), did_you_mean(name, objects.classes),
+           printable(listed(objects.classes)));
 }
 
 /// The instances whose number is drawn, and their classes.

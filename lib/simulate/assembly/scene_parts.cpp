@@ -132,9 +132,8 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
                          title_of(object) + " cannot look at objects: name a file or waypoints");
     }
     const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&*object.trajectory);
-    if (lines && lines->altitude_m > 0.0) {
+    if (lines && lines->altitude_m > 0.0)
         throw InputError(object.place, title_of(object) + " has no altitude_m: give z_m");
-    }
     Trajectory motion = read_named_at(object.place, [&] { return poses_of(*object.trajectory); });
     const double start_s = vehicle.front().t_s;
     const double end_s = vehicle.back().t_s;
@@ -253,12 +252,10 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
         if (bottom.exists() && lies_below(bottom.get(), placed)) {
-            throw InputError(object.place,
-                             title_of(object) + " lies wholly below the bottom; " +
-                                 (object.place_on == ObjectPlace::free
-                                      ? "raise it by position_m, or let it rest there with place: "
-                                        "on_bottom"
-                                      : "lower bury_m"));
+            refuse(object.place, "{} lies wholly below the bottom; {}", title_of(object),
+                   object.place_on == ObjectPlace::free
+                       ? "raise it by position_m, or let it rest there with place: on_bottom"
+                       : "lower bury_m");
         }
         if (!scene.scatter.empty()) taken.add(hull_of(placed.vertices));
     }

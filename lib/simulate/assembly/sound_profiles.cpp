@@ -70,9 +70,8 @@ std::vector<ProfilePoint> named_points(const SoundProfileConfig& config, WaterCo
 double number_of(const CsvTable& csv, const CsvRow& row, std::size_t column, const Limits& limits) {
     const auto value = parse_number(row.fields[column]);
     if (value && *value >= limits.low && *value <= limits.high) return *value;
-    throw InputError({csv.file, row.line}, csv.header.fields[column] + " must be a number from " +
-                                               number_text(limits.low) + " to " +
-                                               number_text(limits.high));
+    refuse({csv.file, row.line}, "{} must be a number from {} to {}", csv.header.fields[column],
+           number_text(limits.low), number_text(limits.high));
 }
 
 std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
@@ -81,12 +80,10 @@ std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
         const auto found = std::ranges::find(csv.header.fields, name);
         const Location header{csv.file, csv.header.line};
         if (found == csv.header.fields.end())
-            throw InputError(header,
-                             "a profile of sound speed needs the columns depth_m and "
-                             "sound_speed_m_s");
+            refuse(header,
+                   "a profile of sound speed needs the columns depth_m and sound_speed_m_s");
         if (std::ranges::count(csv.header.fields, name) > 1)
-            throw InputError(header,
-                             "the column '" + std::string(name) + "' occurs twice; leave one out");
+            refuse(header, "the column '{}' occurs twice; leave one out", name);
         return static_cast<std::size_t>(found - csv.header.fields.begin());
     };
     const std::size_t depth = column("depth_m");
@@ -96,8 +93,7 @@ std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
         const double depth_m = number_of(csv, row, depth, between(0, 12000));
         const double speed_m_s = number_of(csv, row, speed, sound_speeds_m_s);
         if (!points.empty() && !(depth_m > points.back().depth_m))
-            throw InputError({csv.file, row.line},
-                             "depth_m must be greater than in the row before");
+            refuse({csv.file, row.line}, "depth_m must be greater than in the row before");
         points.push_back({depth_m, speed_m_s});
     }
     if (points.empty()) throw InputError({csv.file}, "the profile has no rows");
