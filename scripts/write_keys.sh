@@ -9,7 +9,7 @@ tables=$(mktemp -d)
 trap 'rm -rf "$tables"' EXIT
 "$program" keys > "$tables/keys"
 "$program" warnings > "$tables/warnings"
-"$program" preset --markdown > "$tables/presets"
+"$root/scripts/preset_table.sh" "$program" > "$tables/presets"
 "$root/scripts/insert_tables.sh" "$root/docs/mission.md" "keys=$tables/keys"
 "$root/scripts/insert_tables.sh" "$root/docs/warnings.md" "warnings=$tables/warnings"
 "$root/scripts/insert_tables.sh" "$root/docs/calibrated.md" "presets=$tables/presets"

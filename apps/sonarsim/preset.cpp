@@ -112,29 +112,6 @@ void print_preset(const Json& preset) {
                                        what == "sphere" ? ", of -20 dB" : ""));
 }
 
-/// The table of docs/calibrated.md.
-std::string presets_markdown(const std::vector<Json>& presets) {
-    std::string text =
-        "| preset | source level | noise | directivity | band, kHz | full scale | mud, m | sand, m "
-        "| rock, m | sphere, m | range, m |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const Json& preset : presets) {
-        const auto level = [&](const char* key, const char* origin) {
-            return fmt::format("{:.1f}{}", preset[key].get<double>(),
-                               preset[origin] == "given" ? " *" : "");
-        };
-        text += fmt::format("| {} | {} | {} | {:.1f} | {:.3g} | {} |",
-                            preset["preset"].get<std::string>(),
-                            level("source_level_db", "source_level"), level("noise_db", "noise"),
-                            preset["receiving_directivity_db"].get<double>(),
-                            1e-3 * preset["noise_bandwidth_hz"].get<double>(),
-                            level("full_scale_db", "full_scale"));
-        for (const Json& range : preset["noise_range_m"])
-            text += fmt::format(" {:.3g} |", range.get<double>());
-        text += fmt::format(" {:.4g} |\n", preset["range_max_m"].get<double>());
-    }
-    return text;
-}
-
 /// A table for a terminal of 80 columns.
 std::string presets_text(const std::vector<Json>& presets) {
     constexpr const char* row = "{:33}{:>6}{:>9}{:>7}{:>7}{:>7}{:>8}\n";
@@ -158,7 +135,6 @@ struct PresetArguments {
     std::string name;  ///< "": all that come with the program
     std::vector<std::string> settings;
     bool json = false;
-    bool markdown = false;
 };
 
 int print_presets(const PresetArguments& arguments) {
@@ -171,7 +147,7 @@ int print_presets(const PresetArguments& arguments) {
     } else if (one) {
         print_preset(presets.front());
     } else {
-        fmt::print("{}", arguments.markdown ? presets_markdown(presets) : presets_text(presets));
+        fmt::print("{}", presets_text(presets));
     }
     return exit_done;
 }
@@ -193,7 +169,6 @@ void add_preset(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     command.add_flag("--json", arguments.json, "Prints JSON instead of text");
-    command.add_flag("--markdown", arguments.markdown, "Prints the table of docs/calibrated.md");
 }
 
 }  // namespace sonarsim

@@ -39,9 +39,7 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
     std::vector<Setting> settings = make_settings(mission, arguments.quick);
     std::set<std::string> refusals;
     std::erase_if(settings, [&](const Setting& setting) {
-        if (!arguments.engines.empty() &&
-            std::ranges::find(arguments.engines, setting.engine) == arguments.engines.end())
-            return true;
+        if (!arguments.engines.empty() && !contains(arguments.engines, setting.engine)) return true;
         const std::string refusal = unsupported(setting, assembly);
         if (refusal.empty()) return false;
         if (refusals.insert(refusal).second) spdlog::info("left out: {}", refusal);

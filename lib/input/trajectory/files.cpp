@@ -163,8 +163,9 @@ Trajectory parse_tum(std::string_view text, const std::string& file) {
         if (fields.empty()) continue;
         const Location where{file, number};
         std::array<double, tum_fields> values{};
-        if (fields.size() != values.size())
+        if (fields.size() != values.size()) {
             refuse(where, "{} fields; a pose has 8: t x y z qx qy qz qw", fields.size());
+        }
         for (std::size_t c = 0; c < values.size(); ++c) {
             const auto column = static_cast<int>(fields[c].data() - line.data()) + 1;
             values[c] = field_value(fields[c], all_columns[c], {file, number, column});

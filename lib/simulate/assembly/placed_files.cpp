@@ -63,8 +63,7 @@ std::vector<std::string> readings_of(const SceneConfig& scene) {
         const PlacedFile file = file_of(path, mesh, {});
         if (path.empty() || !is_mesh_file(path)) return;
         std::string text = printable(path.filename().string()) + ": " + reading_of(file);
-        if (std::ranges::find(readings, text) == readings.end())
-            readings.push_back(std::move(text));
+        if (!contains(readings, text)) readings.push_back(std::move(text));
     };
     add(scene.file, scene.mesh);
     for (const ObjectConfig& object : scene.objects)

@@ -156,10 +156,8 @@ bool is_upright(std::initializer_list<double> turns_deg) {
 }
 
 void add_orientation_warning(const std::string& question, SceneParts& parts) {
-    if (question.empty() ||
-        std::ranges::find(parts.orientation_warnings, question) != parts.orientation_warnings.end())
-        return;
-    parts.orientation_warnings.push_back(question);
+    if (!question.empty() && !contains(parts.orientation_warnings, question))
+        parts.orientation_warnings.push_back(question);
 }
 
 /// Scatters objects. The error of objects without room says where the bottom lies, and asks for
@@ -222,8 +220,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
     const bool needs_ground =
-        (lines && lines->altitude_m > 0.0) ||
-        std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
+        (lines && lines->altitude_m > 0.0) || contains(mission.output.labels, Label::height);
     std::optional<PlacedFile> below_objects =
         needs_ground ? std::nullopt : bed_of_objects(mission, models);
     std::optional<PlacedFile> ground;

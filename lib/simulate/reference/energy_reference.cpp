@@ -129,14 +129,12 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                 const PingSettings& settings, const Pose& T_world_sensor,
                                 const ReferenceGoal& goal) {
     const View view = widened_view(settings.view);
-    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
-    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     const std::unique_ptr<VisibilityEngine> rays = make_rays_engine(scene, caster);
     TargetSurface targets;
     if (settings.targets) {
         targets = target_surface(*settings.targets, settings.view, scene, *rays, T_world_sensor);
     }
-    const ReferenceView looking{caster, scene, view, pose, shares};
+    const ReferenceView looking{caster, scene, view, T_world_sensor};
     return settled(settings.view, goal, [&](const RayLayout& layout) -> CastResult {
         EnergyImage image(scene, settings, T_world_sensor, *rays, targets);
         const std::uint64_t cast = cast_over_surface(

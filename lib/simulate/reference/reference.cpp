@@ -170,9 +170,7 @@ Reference settled(const View& view, const ReferenceGoal& goal,
 
 Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
                          const Pose& T_world_sensor, const ReferenceGoal& goal) {
-    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
-    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
-    const ReferenceView looking{caster, scene, view, pose, shares};
+    const ReferenceView looking{caster, scene, view, T_world_sensor};
     return settled(view, goal,
                    [&](const RayLayout& layout) { return sums_over_surface(looking, layout); });
 }

@@ -43,8 +43,9 @@ struct ReferenceView {
     const Caster& caster;
     const Scene& scene;
     const View& view;
-    LocalPose pose;
-    std::span<const SurfaceShare> shares;  ///< from surface_shares()
+    const Pose& T_world_sensor;
+    LocalPose pose = local_pose(T_world_sensor, scene.origin);
+    std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
 };
 
 /// The number and placement of a cast's rays.

@@ -65,11 +65,11 @@ void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> 
         const Ray& ray = specular_rays[k];
         const Eigen::Vector3f point = ray.origin + behind[k].distance_m * ray.direction;
         BounceHit& second = second_hits[second_of[k]];
-        second = {.point = mirror.reflect_point(point),
-                  .normal = mirror.reflect_direction(behind[k].normal),
-                  .rounding_m = behind[k].rounding_m,
-                  .water_reflection = mirror.reflection,
-                  .exists = true};
+        second.point = mirror.reflect_point(point);
+        second.normal = mirror.reflect_direction(behind[k].normal);
+        second.rounding_m = behind[k].rounding_m;
+        second.water_reflection = mirror.reflection;
+        second.exists = true;
         set_surface(context, behind[k], point, second);
         second.reflection *= mirror.reflection;
     }
@@ -97,23 +97,22 @@ void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> s
         return;
     }
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        BounceHit second;
+        BounceHit& second = second_hits.emplace_back();
         const float at_surface = context.mirror ? context.mirror->distance(rays[k])
                                                 : std::numeric_limits<float>::infinity();
-        if (at_surface < hits[k].distance_m) {
-            second = {.point = rays[k].origin + at_surface * rays[k].direction,
-                      .normal = -context.mirror->up,
-                      .rounding_m = hits[k].rounding_m,
-                      .reflection = context.mirror->reflection,
-                      .exists = true};
-        } else if (std::isfinite(hits[k].distance_m)) {
-            second = {.point = rays[k].origin + hits[k].distance_m * rays[k].direction,
-                      .normal = hits[k].normal,
-                      .rounding_m = hits[k].rounding_m,
-                      .exists = true};
+        const bool meets_water = at_surface < hits[k].distance_m;
+        const float distance = meets_water ? at_surface : hits[k].distance_m;
+        if (!std::isfinite(distance)) continue;
+        second.point = rays[k].origin + distance * rays[k].direction;
+        second.rounding_m = hits[k].rounding_m;
+        second.exists = true;
+        if (meets_water) {
+            second.normal = -context.mirror->up;
+            second.reflection = context.mirror->reflection;
+        } else {
+            second.normal = hits[k].normal;
             set_surface(context, hits[k], second.point, second);
         }
-        second_hits.push_back(second);
     }
 }
 

@@ -15,16 +15,9 @@
 namespace sonarsim {
 
 /// The hit of a traced ray on the second surface h.
-struct BounceHit {
-    Eigen::Vector3f point;    ///< p_h, sensor frame, m
-    Eigen::Vector3f normal;   ///< n_h
+struct BounceHit : SecondPoint {
     float rounding_m = 0.0F;  ///< as in Intersection
     float reflection = 0.0F;  ///< R_h times `strength`
-    float strength = 1.0F;    ///< as in Sample
-    std::uint32_t material =
-        no_material;  ///< index into Scene::materials; none: the water's surface
-    std::uint32_t instance = no_instance;  ///< as in BouncePath
-    float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool exists = false;
 };
 

@@ -105,13 +105,7 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     const Outcome outcome = reflect(context, source, plane, b);
     if (outcome == needs_own_ray) return true;
     ++(counts.*outcome);
-    const BounceHit& second = *plane.hit;
-    b.point = second.point;
-    b.normal = second.normal;
-    b.material = second.material;
-    b.instance = second.instance;
-    b.strength = second.strength;
-    b.water_reflection = second.water_reflection;
+    static_cast<SecondPoint&>(b) = *plane.hit;
     b.by_water_surface = context.uses_surface_image();
     if (outcome == &MultipathCounts::bounces) {
         b.intensity *= context.materials[source.material].reflection * source.strength;

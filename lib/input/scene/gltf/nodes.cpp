@@ -93,8 +93,9 @@ std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent)
         return roots;
     }
     const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
-    if (scene >= model.scenes.size())
+    if (scene >= model.scenes.size()) {
         refuse({graph.file}, "the default scene is {}, which does not exist", scene);
+    }
     std::vector<bool> is_listed(graph.size(), false);
     for (const int root : model.scenes[scene].nodes) {
         graph.check_exists(root, "the scene has the root");

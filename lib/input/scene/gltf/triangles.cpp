@@ -91,8 +91,9 @@ Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset
     if (buffer >= model.buffers.size())
         refuse(where, "{} lies in buffer {}, which does not exist", name, view.buffer);
     const auto& bytes = model.buffers[buffer].data;
-    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
         refuse(where, "{} reaches beyond the end of its buffer ({} bytes)", name, bytes.size());
+    }
     const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
     if (stride < element_bytes) {
         refuse(where, "byteStride {} is less than the size of an element, {}", stride,
@@ -111,8 +112,9 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
                  std::size_t element_bytes, Accessor& to, const Location& where) {
     const auto& sparse = from.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
-    if (count == 0 || count > to.count)
+    if (count == 0 || count > to.count) {
         refuse(where, "sparse count {} is not between 1 and the accessor's {}", count, to.count);
+    }
     const ComponentType* const type = component_of(sparse.indices.componentType);
     if (!type || !type->is_index) refuse(where, "sparse indices must be unsigned integers");
     const Elements indices = locate(model, sparse.indices.bufferView,
