@@ -15,7 +15,6 @@
 #include "output/format/npy.h"
 #include "output/format/png.h"
 #include "simulate/assembly/assemble.h"
-#include "simulate/assembly/render_at_pose.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

@@ -5,8 +5,8 @@
 
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
+#include "simulate/assembly/assemble.h"
 #include "simulate/assembly/poses.h"
-#include "simulate/assembly/render_at_pose.h"
 #include "simulate/sonar/sonar.h"
 
 namespace sonarsim {

@@ -14,7 +14,6 @@
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/maps/read_maps.h"
 #include "simulate/assembly/brightness.h"
-#include "simulate/assembly/look_at.h"
 #include "simulate/assembly/mission_objects.h"
 #include "simulate/assembly/particles.h"
 #include "simulate/assembly/placed_files.h"
@@ -274,6 +273,16 @@ std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Asse
     if (settings.type != EngineKind::octree)
         settings.caster = std::make_shared<const Caster>(assembly.make_caster());
     return make_engine(assembly.scene, settings);
+}
+
+RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
+                            const VisibilityEngine& engine, const PingId& id) {
+    const TimedPose& at = assembly.trajectory[id.pose];
+    const SonarAtPose sonar(mission, assembly.sonars[id.sensor], id.pose);
+    const std::shared_ptr<const VisibilityEngine> now = engine_at(engine, assembly.motions, at.t_s);
+    TracedPing traced = trace(*sonar, assembly.scene, *now, at.T_world_vehicle, id.pose);
+    Ping ping = form_image(traced, sonar->settings, assembly.scene, {mission.seed, id.pose});
+    return {id, sonar, now, std::move(traced), std::move(ping)};
 }
 
 }  // namespace sonarsim

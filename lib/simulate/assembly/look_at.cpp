@@ -1,5 +1,3 @@
-#include "simulate/assembly/look_at.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/scene/copies.h"
+#include "simulate/assembly/poses.h"
 
 namespace sonarsim {
 

@@ -1,12 +1,205 @@
 #include "simulate/visibility/strips/strips.h"
 
-#include "simulate/visibility/strips/column_scan.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
 #include "simulate/visibility/strips/strip_rule.h"
+#include "simulate/visibility/strips/strip_samples.h"
 #include "simulate/visibility/strips/strip_triangles.h"
 
 namespace sonarsim {
 
 namespace {
+
+constexpr std::uint32_t no_triangle = 0xFFFFFFFFU;
+
+// Steps of false position towards the place where a line crosses the border of the view.
+constexpr int crossing_steps = 3;
+
+/// Finds the visible strips of a frame's columns.
+class ColumnScan {
+  public:
+    /// All arguments must outlive it.
+    ColumnScan(const ClustersInView& clusters, const std::vector<StripTriangle>& triangles,
+               const ColumnFrame& frame, const StripRule& rule, std::vector<Sample>& out)
+        : triangles_(triangles),
+          frame_(frame),
+          rule_(rule),
+          visibility_(pieces_),
+          samples_(clusters, frame, rule, pieces_, out),
+          hider_(triangles.size(), no_triangle),
+          piece_of_(triangles.size(), 0),
+          column_of_(triangles.size(), -1) {}
+
+    /// Adds the samples of a column between two u, from its triangles. Columns are scanned once
+    /// each.
+    void scan(std::span<const std::uint32_t> column_triangles, float left, float right) {
+        if (column_triangles.empty()) return;
+        const int column = ++column_;
+        pieces_.gather(triangles_, column_triangles, left, right, frame_.reach_w(left, right));
+        for (int i = 0; i < pieces_.count(); ++i) {
+            piece_of_[pieces_.triangle(i)] = i;
+            column_of_[pieces_.triangle(i)] = column;
+        }
+        for (int i = 0; i < pieces_.count(); ++i) {
+            const std::uint32_t hider = hider_[pieces_.triangle(i)];
+            int first = PieceVisibility::none;
+            if (hider != no_triangle && column_of_[hider] == column) {
+                const StripTriangle& t = triangles_[pieces_.triangle(i)];
+                first = piece_of_[hider];
+                if (visibility_.covers(first, i, t.u1, t.w1, pieces_.from(i), pieces_.to(i)))
+                    continue;
+            }
+            visibility_.begin(i, first);
+            add_piece(i);
+        }
+    }
+
+  private:
+    void add_piece(int i) {
+        const StripTriangle& t = triangles_[pieces_.triangle(i)];
+        const PieceBlock& p = pieces_.block_of(i);
+        const int k = i % lanes;
+        const float from = p.from[k];
+        const float to = p.to[k];
+        const bool inside = frame_.surely_sees(from, to, p.w_min[k], p.w_max[k]);
+        const auto add = [&](float low, float high) {
+            if (inside)
+                add_between(i, low, high);
+            else
+                add_at_border(i, low, high);
+        };
+        if (!(t.u1 > from && t.u1 < to)) return add(from, to);
+        const float steepest = std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k]));
+        const float depth = std::max(1.0F / p.q_min[k] - 1.0F / p.q_max[k],
+                                     (p.w_max[k] - p.w_min[k]) * steepest / p.q_min[k]);
+        if (inside && !(depth > rule_.small_m)) return add_small(i, t);
+        add(from, t.u1);
+        add(t.u1, to);
+    }
+
+    /// A piece with a corner, in few bins: one strip at its middle, with the share of the piece's
+    /// area that is visible there.
+    void add_small(int i, const StripTriangle& t) {
+        const float from = pieces_.from(i);
+        const float to = pieces_.to(i);
+        const float u = 0.5F * (from + to);
+        const auto length_at = [&](float at) {
+            return pieces_.high(i, at).w - pieces_.low(i, at).w;
+        };
+        const float length = length_at(u);
+        if (!(length > 0.0F)) return;
+        const float at_corner = length_at(t.u1);
+        const float picture = 0.5F * ((length_at(from) + at_corner) * (t.u1 - from) +
+                                      (at_corner + length_at(to)) * (to - t.u1));
+        if (!visibility_.find(u, whole_at(i, u))) {
+            if (const int j = visibility_.hidden_by(); j != PieceVisibility::none)
+                hider_[pieces_.triangle(i)] = pieces_.triangle(j);
+            return;
+        }
+        const float half = 0.5F * picture / length;
+        const PieceBlock& p = pieces_.block_of(i);
+        const float nearer = t.q_middle / p.q[i % lanes];
+        for (VisibleInterval part : visibility_.parts()) {
+            part.low_slope = part.high_slope = t.long_slope;
+            const float share = (part.high - part.low) / length;
+            samples_.add({t, i, u - half, u, u + half, part,
+                          t.area_per_unit * picture * share * nearer * nearer * nearer, true});
+        }
+    }
+
+    /// The piece on the line u, within the view.
+    VisibleInterval whole_at(int i, float u) const {
+        const PieceEnd low = pieces_.low(i, u);
+        const PieceEnd high = pieces_.high(i, u);
+        VisibleInterval out{low.w, high.w, low.slope, high.slope};
+        if (frame_.surely_sees(u, u, out.low, out.high)) return out;
+        const ColumnLimits view = frame_.limits_at(u);
+        if (out.low < view.low) {
+            out.low = view.low;
+            out.low_slope = view.low_slope;
+        }
+        if (out.high > view.high) {
+            out.high = view.high;
+            out.high_slope = view.high_slope;
+        }
+        return out;
+    }
+
+    /// A piece at the border of the view: cuts it to where it lies in the view, and where one of
+    /// its lines crosses the border.
+    void add_at_border(int i, float from, float to) {
+        struct Room {
+            float low, high, all;
+        };
+        const auto room = [&](float u) -> Room {
+            const float low = pieces_.low(i, u).w;
+            const float high = pieces_.high(i, u).w;
+            const ColumnLimits view = frame_.limits_at(u);
+            return {low - view.low, view.high - high,
+                    std::min(high, view.high) - std::max(low, view.low)};
+        };
+        const auto crossing = [&](float Room::*of) {
+            float a = from;
+            float b = to;
+            float at_a = room(a).*of;
+            float at_b = room(b).*of;
+            float u = a;
+            for (int step = 0; step < crossing_steps; ++step) {
+                u = a + (b - a) * at_a / (at_a - at_b);
+                const float at_u = room(u).*of;
+                if (at_u == 0.0F) break;
+                ((at_u < 0.0F) == (at_a < 0.0F) ? a : b) = u;
+                ((at_u < 0.0F) == (at_a < 0.0F) ? at_a : at_b) = at_u;
+            }
+            return std::clamp(u, from, to);
+        };
+        const float all_from = room(from).all;
+        const float all_to = room(to).all;
+        if (all_from < 0.0F && all_to > 0.0F)
+            from = crossing(&Room::all);
+        else if (all_to < 0.0F && all_from > 0.0F)
+            to = crossing(&Room::all);
+        const Room at_from = room(from);
+        const Room at_to = room(to);
+        std::array<float, 4> u{from, to, to, to};
+        if (at_from.low * at_to.low < 0.0F) u[1] = crossing(&Room::low);
+        if (at_from.high * at_to.high < 0.0F) u[2] = crossing(&Room::high);
+        std::ranges::sort(u);
+        for (int k = 0; k < 3; ++k) {
+            if (u[k + 1] > u[k]) add_between(i, u[k], u[k + 1]);
+        }
+    }
+
+    /// The part of a piece between two u, where its borders are straight.
+    void add_between(int i, float from, float to) {
+        const StripTriangle& t = triangles_[pieces_.triangle(i)];
+        const float u = 0.5F * (from + to);
+        const VisibleInterval whole = whole_at(i, u);
+        if (!(whole.high > whole.low)) return;
+        if (!visibility_.find(u, whole)) {
+            if (const int j = visibility_.hidden_by(); j != PieceVisibility::none)
+                hider_[pieces_.triangle(i)] = pieces_.triangle(j);
+            return;
+        }
+        for (const VisibleInterval& part : visibility_.parts())
+            samples_.add({t, i, from, u, to, part});
+    }
+
+    const std::vector<StripTriangle>& triangles_;
+    const ColumnFrame& frame_;
+    const StripRule& rule_;
+    ColumnPieces pieces_;
+    PieceVisibility visibility_;
+    StripSamples samples_;
+    int column_ = 0;                    ///< number of columns so far
+    std::vector<std::uint32_t> hider_;  ///< for each triangle, the one that hid its last piece
+    std::vector<int> piece_of_;         ///< for each triangle, in its last column
+    std::vector<int> column_of_;
+};
 
 /// Adds the samples of a frame's beams.
 void scan(const ColumnFrame& frame, const ClustersInView& clusters, const StripTriangles& triangles,
