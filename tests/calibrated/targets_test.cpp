@@ -141,7 +141,7 @@ TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they
     const Scene half = sphere_scene({0, 0, 0}, 0.075F, 0.8F, 32);
 
     Scene moving = metal_scene();
-    moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
+    moving.bodies.push_back({{ball.vertices, ball.triangles, ball.triangle_material}, 0});
     const auto engine = engine_of(moving, EngineKind::rays);
     const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
     CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) == approx(expected).epsilon(0.01));

@@ -68,7 +68,7 @@ TEST_CASE("moving: a sphere that flies past is met where it is, at every moment"
     scene.materials = shape.materials;
     scene.instances = {"body"};
     scene.instance_classes = {""};
-    scene.bodies.push_back({0, shape.vertices, shape.triangles, shape.triangle_material});
+    scene.bodies.push_back({{shape.vertices, shape.triangles, shape.triangle_material}, 0});
     const auto engine = make_rays_engine(scene);
     // A ray from the origin along x meets a sphere at (a, b, 0) at a - sqrt(1 - b^2). The
     // facets are 19 um inside, along the ray at most 2.6 times as much.

@@ -68,20 +68,17 @@ struct SceneRejects {
     std::uint64_t skipped_primitives = 0;    ///< points and lines, which have no surface
 };
 
-/// A part of the scene that moves rigidly. Its vertices are floats in the body's own frame; each
-/// ping has a pose of that frame in the world.
-struct Body {
-    std::uint32_t instance = 0;  ///< index into Scene::instances
-    std::vector<Eigen::Vector3f> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
-    std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
-};
-
 /// A mesh that occurs in the scene many times. Its vertices are floats in the mesh's own frame.
 struct SharedMesh {
     std::vector<Eigen::Vector3f> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
     std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
+};
+
+/// A part of the scene that moves rigidly: a mesh of its own, in the body's frame. Each ping has a
+/// pose of that frame in the world.
+struct Body : SharedMesh {
+    std::uint32_t instance = 0;  ///< index into Scene::instances
 };
 
 /// An instance of a shared mesh, at rest.

@@ -1,11 +1,11 @@
-#include "input/scene/gltf/triangles.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <type_traits>
+
+#include "input/scene/gltf/primitives.h"
 
 namespace sonarsim {
 

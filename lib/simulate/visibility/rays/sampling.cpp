@@ -1,7 +1,7 @@
-#include "simulate/visibility/rays/sampling.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "simulate/visibility/rays/ray_columns.h"
 
 namespace sonarsim {
 

@@ -1,9 +1,9 @@
-#include "simulate/visibility/strips/piece_visibility.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <tuple>
+
+#include "simulate/visibility/strips/strip_samples.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,5 @@
-#include "simulate/visibility/strips/strip_frames.h"
-
 #include "core/elementary.h"
+#include "simulate/visibility/strips/strip_triangles.h"
 
 namespace sonarsim {
 

@@ -1,15 +1,82 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/groups.h"
 #include "simulate/visibility/clusters_in_view.h"
-#include "simulate/visibility/strips/strip_frames.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
+
+// A view is cut into columns. Each lies in a frame of its own sector of the view, with the axes
+// forward (X), across (U) and along (W), and is an interval of u in the picture plane u = U / X,
+// w = W / X:
+//   fan:   W is the sensor's z axis: a column is an interval of azimuth;
+//   cone:  X is the boresight: a column is a chord of the cone;
+//   sides: U is the sensor's z axis: a column runs along the fan.
+
+/// The part of a line u = const that lies in the view, and dw/du of the view's borders there.
+struct ColumnLimits {
+    float low, high;
+    float low_slope, high_slope;
+};
+
+/// One sector of a view.
+struct ColumnFrame {
+    enum class Border { parallels, straight, circle };
+
+    Eigen::Matrix3f R_frame_sensor;
+    double angle_low, angle_high;  ///< ends of the sector across, rad
+    double stretch;                ///< u is this times the tangent of the angle
+    std::vector<int> beams;        ///< for each least column; these have equal angles
+    float u_low, u_high;
+    Border border;  ///< the view's, in w
+    float tan_low;  ///< w of the view's borders at u = 0
+    float tan_high;
+
+    /// Width of a least column at u = 0.
+    float column_width() const {
+        return static_cast<float>((angle_high - angle_low) / static_cast<double>(beams.size()));
+    }
+
+    ColumnLimits limits_at(float at_u) const {
+        if (border == Border::straight) return {tan_low, tan_high, 0.0F, 0.0F};
+        if (border == Border::circle) {
+            const float half = std::sqrt(std::max(tan_high * tan_high - at_u * at_u, 0.0F));
+            const float slope = half > 0.0F ? at_u / half : 0.0F;
+            return {-half, half, slope, -slope};
+        }
+        // A parallel of the view is a hyperbola of the picture plane: w = tan(latitude)
+        // sqrt(1 + u^2).
+        const float secant = std::sqrt(1.0F + at_u * at_u);
+        return {tan_low * secant, tan_high * secant, tan_low * at_u / secant,
+                tan_high * at_u / secant};
+    }
+    /// True only if an interval of w lies in the view over an interval of u.
+    bool surely_sees(float from, float to, float low, float high) const {
+        if (border != Border::circle) return low >= tan_low && high <= tan_high;
+        const float max_u = std::max(std::fabs(from), std::fabs(to));
+        const float max_w = std::max(std::fabs(low), std::fabs(high));
+        return max_u * max_u + max_w * max_w <= tan_high * tan_high;
+    }
+    /// The greatest |w| in the view over an interval of u.
+    float reach_w(float from, float to) const {
+        const float max_u = std::max(std::fabs(from), std::fabs(to));
+        const float secant = border == Border::parallels ? std::sqrt(1.0F + max_u * max_u) : 1.0F;
+        return secant * std::max(std::fabs(tan_low), std::fabs(tan_high));
+    }
+};
+
+/// The sectors of a view, in the order of their beams. Each beam has one least column, or more if
+/// it is wide; a cone has 32.
+std::vector<ColumnFrame> strip_frames(const View& view);
+
+/// The borders of the columns of a frame, ascending, if each of its least columns has `parts`.
+std::vector<float> column_borders(const ColumnFrame& frame, int parts);
 
 /// A triangle in the picture plane of a frame, with its corners in ascending u. Its plane is
 /// q = 1 / X, linear in u and w.
