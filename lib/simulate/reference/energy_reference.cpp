@@ -5,7 +5,7 @@
 #include "simulate/trace/apply_maps.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/target_surface.h"
-#include "simulate/trace/through_walls.h"
+#include "simulate/trace/traced_ping.h"
 #include "simulate/trace/visible_surface.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "simulate/visibility/view.h"

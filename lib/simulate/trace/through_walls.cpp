@@ -1,11 +1,10 @@
-#include "simulate/trace/through_walls.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "simulate/trace/arrivals.h"
+#include "simulate/trace/traced_ping.h"
 
 namespace sonarsim {
 

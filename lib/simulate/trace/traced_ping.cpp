@@ -4,7 +4,6 @@
 
 #include "core/clock.h"
 #include "simulate/trace/target_surface.h"
-#include "simulate/trace/through_walls.h"
 #include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pose.h"
@@ -66,5 +67,12 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
 /// Finds the multipath of a traced ping again, with these settings.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,
                      const VisibilityEngine& engine, TracedPing& traced);
+
+/// Adds the surface that sound reaches through thin walls of `samples`. `transmissions`:
+/// the share of the power that passes a wall out and back, by material; 0: none; empty: no material
+/// is a wall. Sound goes straight on behind a wall, and the strength of a sample is what the walls
+/// before it leave. Maps and motion are not applied.
+void add_behind_walls(std::span<const float> transmissions, const TraceContext& context,
+                      Samples& samples);
 
 }  // namespace sonarsim

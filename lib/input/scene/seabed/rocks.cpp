@@ -1,5 +1,3 @@
-#include "input/scene/seabed/rocks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +6,7 @@
 #include "core/elementary.h"
 #include "core/units.h"
 #include "input/scene/seabed/relief.h"
+#include "input/scene/seabed/seabed.h"
 
 namespace sonarsim {
 

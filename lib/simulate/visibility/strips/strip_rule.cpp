@@ -1,7 +1,7 @@
-#include "simulate/visibility/strips/strip_rule.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "simulate/visibility/strips/strip_samples.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulate/visibility/strips/strip_rule.h"
 #include "simulate/visibility/strips/strip_samples.h"
 #include "simulate/visibility/strips/strip_triangles.h"
 
