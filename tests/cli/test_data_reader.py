@@ -148,6 +148,8 @@ class Reader(Sandbox):
         (self.out / "fls/meta/000000.json").symlink_to(self.folder / "secret/000000.json")
         with self.assertRaisesRegex(ValueError, "lies behind a link"):
             self.open()["fls"][0]["meta"]
+        with self.assertRaisesRegex(TypeError, "takes a sensor"):
+            sonarsim_data.torch_dataset(self.open())
         image = (self.out / "fls/image/000000.png").read_bytes()
         polar = (self.out / "fls/polar/000000.npy").read_bytes()
         for read, data in ((sonarsim_data.read_png, image[:16] + (1 << 30).to_bytes(4, "big") + image[20:]),

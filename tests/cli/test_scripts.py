@@ -132,6 +132,8 @@ class Clusters(Sandbox):
             logs = "\n".join(p.read_text() for p in (self.folder / "all.parts").glob("*.log"))
             self.assertEqual((self.folder / "all/SHA256SUMS").exists(), scene.exists(), logs)
         self.assertEqual(digest(self.folder / "all"), self.whole, logs)
+        parts = [p.name for p in (self.folder / "all.parts").glob("*/fls/meta/*.json")]
+        self.assertEqual(sorted(parts), [f"{k:06}.json" for k in range(5)])     # each ping is in one
 
     @unittest.skipIf(slurm_node.missing(), slurm_node.missing())
     def test_a_real_slurm(self):

@@ -106,6 +106,23 @@ TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its 
     CHECK(reads_back(cluttered));
 }
 
+TEST_CASE("clutter: by default no kind that a rule of scatter labels") {
+    std::string files = "m.glb";  // as many for each of 15 or 16 kinds
+    for (int k = 1; k < 240; ++k)
+        files += ", m.glb";
+    const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1, size_m: [9, 9]}\n";
+    const std::string clutter = "  clutter: {density_per_m2: 0.5, files: [" + files + "]}\n";
+    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
+    for (const std::string unlabelled : {"false", "true"}) {
+        const Mission mission = parse(
+            head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], unlabelled: " +
+            unlabelled + "}]\n" + clutter + tail);
+        const std::vector<std::string>& kinds = mission.scene.scatter.at(1).stock;
+        CHECK(std::ranges::count(kinds, "pipe") == (unlabelled == "true" ? 1 : 0));
+        CHECK(std::ranges::count(kinds, "rope") == 1);
+    }
+}
+
 TEST_CASE("what is refused of stock, clutter and areas") {
     const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n";
     const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);

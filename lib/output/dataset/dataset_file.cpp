@@ -18,7 +18,7 @@ namespace {
 constexpr const char* cure = "; copy the dataset again, or render it again";
 
 /// InputError with what is wrong with a dataset.json.
-[[noreturn]] void refuse(const std::string& file, const std::string& what) {
+[[noreturn]] void refuse_description(const std::string& file, const std::string& what) {
     throw InputError({file}, what + cure);
 }
 
@@ -40,13 +40,15 @@ bool has_number(const std::string& text) {
 std::string path_in(const Json& value, const std::string& folder, const std::string& file) {
     auto path = value.get<std::string>();
     if (!path.starts_with(folder + "/") || !is_inner_path(path))
-        refuse(file, "has '" + path + "', which is not the path of a file in '" + folder + "/'");
+        refuse_description(
+            file, "has '" + path + "', which is not the path of a file in '" + folder + "/'");
     return path;
 }
 
 std::string pattern_in(const Json& value, const std::string& folder, const std::string& file) {
     auto pattern = value.get<std::string>();
-    if (!has_number(pattern)) refuse(file, "has '" + pattern + "' without a number as '%06d'");
+    if (!has_number(pattern))
+        refuse_description(file, "has '" + pattern + "' without a number as '%06d'");
     path_in(numbered(pattern, 0), folder, file);
     return pattern;
 }
@@ -54,7 +56,7 @@ std::string pattern_in(const Json& value, const std::string& folder, const std::
 /// A number of things. JSON may hold one that no integer does.
 std::uint64_t count_in(const Json& value, const std::string& file) {
     if (!value.is_number_integer() || value < 0)
-        refuse(file, "has " + value.dump() + " in place of a whole number");
+        refuse_description(file, "has " + value.dump() + " in place of a whole number");
     return value.get<std::uint64_t>();
 }
 
@@ -62,12 +64,14 @@ DescribedSensor read_sensor(const Json& json, std::uint64_t poses, const std::st
     DescribedSensor sensor;
     sensor.name = json.at("name").get<std::string>();
     if (!is_plain_name(sensor.name))
-        refuse(file, "has a sensor '" + sensor.name + "', which is not the name of a folder");
+        refuse_description(file,
+                           "has a sensor '" + sensor.name + "', which is not the name of a folder");
     sensor.every = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(count_in(json.at("every"), file), 1, UINT32_MAX));
     sensor.pings = count_in(json.at("pings"), file);
     if (sensor.pings != (poses + sensor.every - 1) / sensor.every)
-        refuse(file, "has another number of pings of '" + sensor.name + "' than of poses");
+        refuse_description(file,
+                           "has another number of pings of '" + sensor.name + "' than of poses");
     for (const Json& pattern : json.at("files"))
         sensor.files.push_back(pattern_in(pattern, sensor.name, file));
     if (json.contains("records"))
@@ -107,9 +111,10 @@ Json read_json(const std::filesystem::path& path) {
     constexpr std::size_t largest = std::size_t{1} << 28;
     constexpr int deepest = 64;
     const std::string text = read_file(path, largest);
-    if (is_nested_deeper(text, deepest)) refuse(path.string(), "is nested more than 64 deep");
+    if (is_nested_deeper(text, deepest))
+        refuse_description(path.string(), "is nested more than 64 deep");
     Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) refuse(path.string(), "is not JSON");
+    if (json.is_discarded()) refuse_description(path.string(), "is not JSON");
     return json;
 }
 
@@ -136,7 +141,7 @@ DatasetFile parse_description(Json json, const std::string& file) try {
     dataset.complete = json.at("complete").get<bool>();
     dataset.mission = json.at("mission").get<std::string>();
     dataset.poses = count_in(json.at("poses"), file);
-    if (dataset.poses > max_poses) refuse(file, "has more than ten million poses");
+    if (dataset.poses > max_poses) refuse_description(file, "has more than ten million poses");
     for (const Json& sensor : json.at("sensors"))
         dataset.sensors.push_back(read_sensor(sensor, dataset.poses, file));
     for (const Json& product : json.value("products", Json::array())) {
@@ -148,7 +153,8 @@ DatasetFile parse_description(Json json, const std::string& file) try {
     return dataset;
 } catch (const Json::exception& fault) {
     const std::string what = fault.what();  // "[json.exception.type_error.302] type must be ..."
-    refuse(file, "is damaged: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
+    refuse_description(file,
+                       "is damaged: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
 }
 
 DatasetFile require_dataset(const std::filesystem::path& folder) {
@@ -224,8 +230,8 @@ bool has_sums(const std::filesystem::path& folder, const DatasetFile& dataset) {
 std::vector<std::string> list_files(const std::filesystem::path& folder,
                                     const DatasetFile& dataset) {
     if (has_sums(folder, dataset)) return list_files(dataset);
-    refuse((folder / description_name).string(),
-           "lists more files than SHA256SUMS, which is missing or too short");
+    refuse_description((folder / description_name).string(),
+                       "lists more files than SHA256SUMS, which is missing or too short");
 }
 
 std::uint64_t count_pings(const DatasetFile& dataset) {

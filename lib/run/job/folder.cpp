@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* or_overwrite = ", or replace it with --overwrite";
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure = "") {
+[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& what,
+                                const char* cure = "") {
     throw InputError({folder.string()}, what + "; choose another output.folder" + cure);
 }
 
@@ -55,14 +56,14 @@ void spare_inputs(const fs::path& folder, const std::set<std::string>& names,
     for (const fs::path& input : files_of(mission)) {
         const fs::path relative = fs::weakly_canonical(input).lexically_relative(home);
         if (relative.empty() || !names.contains(relative.begin()->string())) continue;
-        refuse(folder,
-               "the dataset would replace '" + input.string() + "', which the mission reads");
+        refuse_folder(
+            folder, "the dataset would replace '" + input.string() + "', which the mission reads");
     }
 }
 
 Json own_description(const fs::path& folder) {
     if (auto json = read_description(folder)) return *std::move(json);
-    refuse(folder, "holds a dataset.json that is not sonarsim's");
+    refuse_folder(folder, "holds a dataset.json that is not sonarsim's");
 }
 
 /// The temporary files in a folder, with its inner folders where `Iterator` enters them.
@@ -164,13 +165,13 @@ FolderState inspect_folder(const fs::path& folder, const Json& description,
     const bool unused = is_unused(folder);
     if (!fs::exists(folder / description_name)) {
         if (unused) return FolderState::fresh;
-        refuse(folder, "holds files that are not a sonarsim dataset");
+        refuse_folder(folder, "holds files that are not a sonarsim dataset");
     }
     const Json found = own_description(folder);
     if (overwrite) return FolderState::fresh;
     std::string difference = difference_between(found, description);
     if (difference == another_mission) difference += mission_differences(folder, mission);
-    if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
+    if (!difference.empty()) refuse_folder(folder, "holds a dataset " + difference, or_overwrite);
     return found.value("complete", Json()) == true ? FolderState::complete
                                                    : FolderState::unfinished;
 }
