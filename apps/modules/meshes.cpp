@@ -18,7 +18,8 @@
 
 namespace {
 
-/// The only file that assimp can open. An .mtl is not needed: usemtl names the materials.
+/// The only file that assimp can open, so that no file can make it open another. An .mtl is not
+/// needed: usemtl names the materials.
 class OneFile final : public Assimp::IOSystem {
   public:
     OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}

@@ -11,41 +11,6 @@ namespace sonarsim {
 
 namespace {
 
-Json key_json(const KeyReference& key) {
-    Json json{{"name", key.name}, {"type", key.type}};
-    if (!key.unit.empty()) json["unit"] = key.unit;
-    json["required"] = key.required;
-    for (const auto& [kind, value] : key.defaults) {
-        if (kind.empty()) {
-            json["default"] = default_json(value);
-        } else {
-            json["default_by_kind"][kind] = default_json(value);
-        }
-    }
-    if (key.limits) {
-        json["low"] = key.limits->low;
-        json["low_allowed"] = key.limits->low_allowed;
-        json["high"] = key.limits->high;
-    }
-    if (!key.choices.empty()) json["choices"] = key.choices;
-    json["meaning"] = key.meaning;
-    return json;
-}
-
-Json reference_json(const std::vector<SectionReference>& sections) {
-    Json json = Json::array();
-    for (const SectionReference& section : sections) {
-        Json keys = Json::array();
-        for (const KeyReference& key : section.keys)
-            keys.push_back(key_json(key));
-        json.push_back({{"path", section.path},
-                        {"form", section.form},
-                        {"keys", keys},
-                        {"checks", section.checks}});
-    }
-    return json;
-}
-
 /// The keys whose path has a text. InputError if there is none.
 std::vector<SectionReference> with_text(std::vector<SectionReference> sections,
                                         const std::string& text) {
@@ -69,14 +34,10 @@ struct KeysArguments {
 
 int print_keys(const KeysArguments& arguments) {
     const std::vector<SectionReference> sections = mission_reference(sonar_keys());
-    if (arguments.json) {
-        Json schema = reference_schema(sections, sonar_keys());
-        // Editors skip what a schema does not define.
-        schema["sections"] = reference_json(sections);
-        fmt::print("{}\n", schema.dump(1));
-    } else {
+    if (arguments.json)
+        fmt::print("{}\n", reference_schema(sections, sonar_keys()).dump(1));
+    else
         fmt::print("{}", reference_markdown(with_text(sections, arguments.text)));
-    }
     return exit_done;
 }
 

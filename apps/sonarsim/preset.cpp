@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <filesystem>
-
 #include "commands.h"
 #include "core/units.h"
 #include "input/mission/parse.h"

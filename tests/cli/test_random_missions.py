@@ -31,20 +31,36 @@ MAX_MEMORY = 6 << 30
 
 PLACE = re.compile(r"error: (mission\.json|materials\.csv|scene\.gltf|path\.csv"
                    r"|/[^ ]*\.(json|csv|gltf)|sensor '\w+'|[a-z_]+(\.[a-z_]+)*)\b")
-# Sections whose keys are drawn; those of a sonar's model go to sonars of this model.
+# Sections whose keys are drawn.
 SECTIONS = re.compile(r"|water|water\.profile|scene\.water_surface|vehicle(\..*)?|accuracy|octree|output|sensors\.NAME(\..*)?")
-MODELS = {"instrument": "calibrated", "noise": "paper", "streaks": "paper"}
 # What the small mission sets, or what asks for many missions.
 NOT_DRAWN = ("seed", "engine", "variants", "kind", "model", "range_min_m", "range_max_m", "range_bins", "azimuth_bins",
              "folder", "leaf_m", "height_m", "named")
 
 
+def keys_of(schema):
+    """{(section, key): {(kind, model) of its sonar, or None: its schema}} of the JSON Schema of missions."""
+    found = {}
+
+    def add(section, path, sonar):
+        for name, part in section["properties"].items():
+            if path + name == "sensors":
+                for rule in part["additionalProperties"]["allOf"]:
+                    of_sonar = rule["if"]["properties"]
+                    add(rule["then"], "sensors.NAME.", (of_sonar["kind"]["const"], of_sonar["model"].get("const", "paper")))
+            elif "properties" in part:
+                add(part, f"{path}{name}.", sonar)
+            else:
+                found.setdefault((path[:-1], name), {})[sonar] = part
+
+    add(schema, "", None)
+    return found
+
+
 def number(draw, key):
     """A number of the key's range: within a factor of ten of the default, or often one of the ends or one at the edge
     of what floats hold."""
-    low, high, default = key["low"], key["high"], key.get("default")
-    if "choices" in key and draw.random() < 0.5:
-        return draw.choice(key["choices"])
+    low, high, default = key.get("minimum", key.get("exclusiveMinimum")), key["maximum"], key.get("default")
     kind = draw.random()
     if kind < 0.5:
         value = (default if isinstance(default, (int, float)) and default else draw.uniform(0, 1)) * 10 ** draw.uniform(-1, 1)
@@ -58,31 +74,32 @@ def number(draw, key):
         value = math.exp(draw.uniform(math.log(smallest), math.log(largest)))
         value *= -1 if low < 0 and draw.random() < 0.5 else 1
     value = min(max(value, low), high)
-    if not key["low_allowed"] and value <= low:
+    if "exclusiveMinimum" in key and value <= low:
         value = math.nextafter(low, high)
-    return min(max(int(value), int(low)), int(high)) if key["type"] == "whole number" else value
+    return min(max(int(value), int(low)), int(high)) if key["type"] == "integer" else value
 
 
 def value_of(draw, key):
     """None where the key holds something else than numbers, flags and choices."""
-    what = key["type"]
-    if what in ("number", "whole number"):
+    if "const" in key.get("anyOf", [{}])[0]:    # a word, or a number
+        word, other = key["anyOf"]
+        return word["const"] if draw.random() < 0.5 else number(draw, {**other, "default": key.get("default")})
+    if key.get("type") in ("number", "integer"):
         return number(draw, key)
-    if what.endswith(" numbers"):
-        return [number(draw, {**key, "type": "number", "default": 1.0}) for _ in range(int(what.split()[0]))]
-    if what == "choice":
-        return draw.choice(key["choices"])
-    return draw.random() < 0.5 if what == "true or false" else None
+    if key.get("type") == "array" and key["items"].get("type") == "number":
+        return [number(draw, {**key["items"], "default": 1.0}) for _ in range(key["minItems"])]
+    if "enum" in key:
+        return draw.choice(key["enum"])
+    return draw.random() < 0.5 if key.get("type") == "boolean" else None
 
 
 def sensor(draw, keys, size):
     """A sonar that mostly has something to see, of an image small enough; now and then with a side as long as it may be."""
-    of_sonar = {key["name"]: key for key in keys["sensors.NAME"]}
-    kind = draw.choice(of_sonar["kind"]["choices"])
-    out = {"kind": kind, "model": draw.choice(["paper", "calibrated"]), "range_min_m": draw.choice([0, 0.01 * size, 0.5 * size]),
+    kind, model = draw.choice(sorted(keys["sensors.NAME", "kind"]))
+    out = {"kind": kind, "model": model, "range_min_m": draw.choice([0, 0.01 * size, 0.5 * size]),
            "range_max_m": min(draw.choice([1, 3, 100]) * size, 1e9)}
     for name in ("range_bins", "azimuth_bins"):
-        if kind in of_sonar[name]["default_by_kind"]:
+        if (kind, model) in keys["sensors.NAME", name]:
             out[name] = draw.choice([1, 2, draw.randint(1, 64), draw.randint(1, 200)])
     if draw.random() < 0.05:
         out[draw.choice([name for name in ("range_bins", "azimuth_bins") if name in out])] = 8192
@@ -102,21 +119,17 @@ def write_mission(draw, keys, folder):
     if draw.random() < 0.5:
         mission["scene"]["water_surface"] = {"height_m": at[2] + 3 * size}
     else:
-        keys = {path: listed for path, listed in keys.items() if path not in ("scene.water_surface", "water.profile")}
-    drawn = [(path, key) for path, listed in keys.items() if SECTIONS.fullmatch(path) for key in listed
-             if key["name"] not in NOT_DRAWN]
+        keys = {one: parts for one, parts in keys.items() if one[0] not in ("scene.water_surface", "water.profile")}
+    drawn = [one for one in keys if SECTIONS.fullmatch(one[0]) and one[1] not in NOT_DRAWN]
     for path, key in draw.sample(drawn, draw.choice([2, 8, 30])):
-        for name, one in sensors.items() if "NAME" in path else [("", {"kind": "", "model": ""})]:
-            by_kind = key.get("default_by_kind", {one["kind"]: key.get("default")})
-            part = (path.split(".") + [""])[2] if "NAME" in path else ""
-            if MODELS.get(part, one["model"]) != one["model"] or one["kind"] not in by_kind:
-                continue
-            value = value_of(draw, {**key, "default": by_kind[one["kind"]]})
+        for name, one in sensors.items() if "NAME" in path else [("", None)]:
+            part = keys[path, key].get(one and (one["kind"], one["model"]))
+            value = value_of(draw, part) if part else None
             if value is not None:
                 inner = mission
-                for part in filter(None, path.replace("NAME", name).split(".")):
-                    inner = inner.setdefault(part, {"named": "summer"} if part == "profile" else {})
-                inner[key["name"]] = value
+                for step in filter(None, path.replace("NAME", name).split(".")):
+                    inner = inner.setdefault(step, {"named": "summer"} if step == "profile" else {})
+                inner[key] = value
     (folder / "mission.json").write_text(json.dumps(mission, indent=1))
     # A closed box around `at`, or one that is flat in one direction; y is up in it.
     document = json.loads(box_gltf(half=[size * draw.choice([1.0, 1.0, 0.3, 1e-3, 0.0]) for _ in range(3)]))
@@ -128,7 +141,7 @@ def write_mission(draw, keys, folder):
              for i in range(draw.randint(1, 6))]
     (folder / "path.csv").write_text("".join(
         ",".join(map(str, row)) + "\n" for row in ["t_s x_m y_m z_m roll_deg pitch_deg yaw_deg".split(), *poses]))
-    density, speed = (number(draw, {"type": "number", "low": 1e-9, "low_allowed": True, "high": 1e9, "default": 2000.0})
+    density, speed = (number(draw, {"type": "number", "minimum": 1e-9, "maximum": 1e9, "default": 2000.0})
                       for _ in range(2))
     (folder / "materials.csv").write_text(f"material,density_kg_m3,sound_speed_m_s\nConcrete,{density!r},{speed!r}\n")
     return mission
@@ -219,7 +232,7 @@ def check(folder):
 class RandomMissions(unittest.TestCase):
     def test_any_values(self):
         listed = subprocess.run([SONARSIM, "keys", "--json"], check=True, capture_output=True)
-        keys = {part["path"]: part["keys"] for part in json.loads(listed.stdout)["sections"]}
+        keys = keys_of(json.loads(listed.stdout))
         codes = []
         for i in [int(ONLY)] if ONLY else range(MISSIONS):
             folder = pathlib.Path(tempfile.mkdtemp(prefix=f"sonarsim-random-{i}-"))

@@ -218,7 +218,7 @@ class Sensor:
         return int(np.ceil(height_m / pixel_m - 1e-6)), width, pixel_m
 
     def to_fan(self, polar, width=512, blank=0):
-        """[range, azimuth, ...] as a fan [row, column, ...]: each pixel is the bin at its centre, `blank` outside of it."""
+        """[range, azimuth, ...] as a fan [row, column, ...]: each pixel is the bin at its centre; `blank` beyond the sector."""
         height, width, pixel_m = self.fan_shape(width)
         ahead = self.range_edges_m[-1] - (np.arange(height)[:, None] + 0.5) * pixel_m
         port = (0.5 * width - (np.arange(width)[None, :] + 0.5)) * pixel_m
@@ -299,7 +299,7 @@ class Sample(collections.abc.Mapping):
 def torch_dataset(sensor, names=("polar",), transform=None):
     """The pings of a sensor as a torch.utils.data.Dataset: each item a tuple of tensors in the order of `names`, JSON
     ones as text, or what `transform` makes of that tuple. ImportError without torch."""
-    if not isinstance(sensor, Sensor):
+    if not hasattr(sensor, "read"):
         raise TypeError(f"torch_dataset() takes a sensor, such as dataset.sensors['fls'], not a {type(sensor).__name__}")
     import torch  # pylint: disable=import-outside-toplevel,import-error
 
@@ -401,7 +401,7 @@ def own_file(folder, inner, is_folder=False):
     path = folder / inner
     there = path.is_dir() if is_folder else path.is_file()
     if not there or os.path.realpath(path) != os.path.join(os.path.realpath(folder), inner):
-        raise DataError(f"{path}: is missing, or lies behind a link; the render command that made the dataset completes it")
+        raise DataError(f"{path}: is missing, or lies behind a link; the render command completes a dataset")
     return path
 
 

@@ -24,7 +24,7 @@ enum class Aperture {
 /// The quantity in which the beams of a fan have equal steps.
 enum class BeamSpacing { equal_angle, equal_sine };
 
-/// When the scatterers of the speckle are drawn: once, for every ping, or never.
+/// When the scatterers of the speckle are drawn: once, for every ping, or never (mean powers).
 enum class SpeckleMode { scene, ping, none };
 
 enum class Companding { gamma, log, linear };

@@ -31,6 +31,12 @@ Json within(const char* type, const Limits& limits) {
     return json;
 }
 
+/// A default of the reference as JSON.
+Json default_json(const std::string& yaml) {
+    Json value = Json::parse(yaml, nullptr, false);
+    return value.is_discarded() ? Json(yaml) : value;
+}
+
 Json list_json(Json items, std::size_t min_items, std::size_t max_items = 0) {
     Json json{{"type", "array"}, {"items", std::move(items)}};
     if (min_items > 0) json["minItems"] = min_items;
@@ -159,11 +165,6 @@ class SchemaMaker {
 };
 
 }  // namespace
-
-Json default_json(const std::string& yaml) {
-    Json value = Json::parse(yaml, nullptr, false);
-    return value.is_discarded() ? Json(yaml) : value;
-}
 
 Json reference_schema(const std::vector<SectionReference>& sections, SonarKeyTable sonars) {
     Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},

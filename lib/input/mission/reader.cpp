@@ -80,6 +80,7 @@ void MissionReader::one_of(TrajectoryConfig& value, const std::vector<std::strin
     if (present.size() > 1)
         refuse(node_.find(present[1])->key_place, "'{}' takes one of the keys: {}; here are {}",
                name_, listed(keys), listed(present));
+    static_assert(std::variant_size_v<TrajectoryConfig> == 4);
     if (present[0] == keys[0]) value = FileTrajectoryConfig{.file = {}, .place = node_.place};
     if (present[0] == keys[1]) value = WaypointTrajectoryConfig{};
     if (present[0] == keys[2]) value = LawnmowerTrajectoryConfig{};

@@ -50,7 +50,4 @@ std::string reference_markdown(const std::vector<SectionReference>& sections);
 nlohmann::ordered_json reference_schema(const std::vector<SectionReference>& sections,
                                         SonarKeyTable sonars);
 
-/// A default of the reference as JSON.
-nlohmann::ordered_json default_json(const std::string& yaml);
-
 }  // namespace sonarsim

@@ -94,12 +94,15 @@ YamlNode rule_of_clutter(YamlNode clutter, const YamlNode* scatter) {
         refuse_type(clutter, "clutter", "a section with the key density_per_m2");
     if (clutter.find("density_per_m2") == nullptr)
         refuse(clutter.place, "'clutter' needs the key 'density_per_m2'");
+    const std::vector<std::string> kinds = unlabelled_kinds(scatter);
+    if (kinds.empty() && clutter.find("stock") == nullptr)
+        refuse(clutter.place, "'scatter' labels every kind of clutter; give 'clutter' its 'stock'");
     const ClutterConfig scales;
     YamlNode defaults = read_document(
         "{name: clutter, overlap: true, unlabelled: true, class: clutter, roll_deg: [-15, 15], "
         "pitch_deg: [-15, 15], scale: " +
             yaml_text(scales.scale) + ", bury: " + yaml_text(scales.bury) + ", stock: [" +
-            listed(unlabelled_kinds(scatter)) + "]}",
+            listed(kinds) + "]}",
         "");
     set_place(defaults, clutter.place);
     add_missing(defaults, clutter);

@@ -37,7 +37,7 @@ struct XtfPing {
 std::string xtf_header(const XtfFile& file);
 
 /// The record of a ping. `row`, and with it the channels, has port from range_max to nadir, as is
-/// usual in XTF, then starboard from nadir on.
+/// usual in XTF (its last sample is at nadir), then starboard from nadir on.
 std::string xtf_record(const XtfFile& file, const XtfPing& ping,
                        std::span<const std::uint16_t> row);
 

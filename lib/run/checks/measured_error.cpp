@@ -5,7 +5,6 @@
 
 #include "core/ordered_pipeline.h"
 #include "core/text.h"
-#include "simulate/assembly/assemble.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"
 

@@ -24,12 +24,13 @@ void check(const RenderOptions& options);
 ///
 /// An unfinished dataset of the same mission, inputs and program version is resumed: pings that its
 /// journal lists, and whose files are there with the listed sizes, are not rendered again, and the
-/// bytes come out the same. Shards may run at the same time, in one folder or in folders that are
-/// merged later; whichever run finds that no ping is missing makes the products and marks the
-/// dataset as complete. When `stop` becomes true, pings in flight are finished. InputError when the
-/// folder holds something else and `overwrite` is off, when another run writes there, or when the
-/// dataset would replace a file that the mission reads; std::system_error when the disk does not
-/// take a file; std::runtime_error when files vanish while the run is under way.
+/// bytes come out the same. Each shard holds a lock (run/job/shard_lock.h). They may run at the
+/// same time, in one folder or in folders that are merged later; whichever run finds that no ping
+/// is missing makes the products and marks the dataset as complete. When `stop` becomes true, pings
+/// in flight are finished. InputError when the folder holds something else and `overwrite` is off,
+/// when another run writes there, or when the dataset would replace a file that the mission reads;
+/// std::system_error when the disk does not take a file; std::runtime_error when files vanish while
+/// the run is under way.
 RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                       const RenderOptions& options, const JobCallback& progress,
                       const std::atomic<bool>& stop);

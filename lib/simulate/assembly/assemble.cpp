@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -20,7 +19,6 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
-#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"

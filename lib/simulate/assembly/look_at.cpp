@@ -1,8 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/error.h"

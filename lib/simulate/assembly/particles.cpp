@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/error.h"

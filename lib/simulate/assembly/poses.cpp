@@ -1,9 +1,6 @@
 #include "simulate/assembly/poses.h"
 
 #include <cmath>
-#include <optional>
-#include <string>
-#include <utility>
 #include <variant>
 
 #include "core/elementary.h"

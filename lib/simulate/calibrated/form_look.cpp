@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "core/elementary.h"
 #include "simulate/calibrated/equation/specular_echoes.h"

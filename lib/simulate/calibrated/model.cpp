@@ -1,10 +1,8 @@
 #include "simulate/calibrated/model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 

@@ -3,19 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <span>
 #include <utility>
-#include <vector>
 
-#include "input/scene/objects.h"
 #include "simulate/calibrated/equation/specular_echoes.h"
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/trace/arrivals.h"
-#include "simulate/visibility/engine.h"
 
 namespace sonarsim {
 

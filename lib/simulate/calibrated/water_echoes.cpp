@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
-#include <span>
-#include <vector>
 
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/trace/arrivals.h"

@@ -1,10 +1,8 @@
 #include "simulate/labels/silhouette.h"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <utility>
 

@@ -1,8 +1,6 @@
 #include "simulate/paper/echoes.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "simulate/trace/arrivals.h"
 

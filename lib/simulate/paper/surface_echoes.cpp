@@ -1,7 +1,6 @@
 #include "simulate/trace/surface_echoes.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "simulate/paper/echoes.h"

@@ -1,6 +1,5 @@
 #include "simulate/product/fan.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"

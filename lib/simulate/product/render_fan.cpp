@@ -1,11 +1,8 @@
 #include <immintrin.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <span>
 
 #include "simulate/product/fan.h"
 

@@ -75,7 +75,7 @@ class GroundMapApplier {
             sample.position,
             sample.edge_u,
             sample.edge_v,
-            trapezoid_of(sample, shape_),
+            taper_of(sample, shape_),
             {ground_of(sample.position), from_above(sample.edge_u), from_above(sample.edge_v)},
             sample.area_m2};
         cut(piece, max_halvings, out);

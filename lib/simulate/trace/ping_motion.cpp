@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "core/elementary.h"
 #include "simulate/trace/sample_kinds.h"

@@ -17,11 +17,12 @@ struct Taper {
 
 /// The taper of a footprint in a view of this shape; none without a shape. With ranges from r to
 /// 1.3 r, as engines leave patches on flat ground, the width differs by 13 % from that of a
-/// parallelogram. In a cone strips lie between parallel lines, and rays give wedges.
+/// parallelogram. Strips of a cone lie between parallel lines.
 inline Taper taper_of(const Sample& sample, std::optional<ViewShape> shape) {
-    if (!shape || *shape == ViewShape::cone) return {};
+    if (!shape || (*shape == ViewShape::cone && !sample.widens_from_axis)) return {};
     Eigen::Vector3f from_axis = sample.position;
     if (*shape == ViewShape::fan) from_axis.z() = 0.0F;
+    if (*shape == ViewShape::cone) from_axis.x() = 0.0F;
     const float distance2 = from_axis.squaredNorm();
     if (!(distance2 > 0.0F)) return {};
     const float u = from_axis.dot(sample.edge_u) / distance2;

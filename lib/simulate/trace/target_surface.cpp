@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "core/groups.h"

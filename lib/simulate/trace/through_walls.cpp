@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/traced_ping.h"

@@ -1,7 +1,5 @@
 #include "simulate/trace/traced_ping.h"
 
-#include <utility>
-
 #include "core/clock.h"
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/visible_water_surface.h"

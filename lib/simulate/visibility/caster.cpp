@@ -4,11 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <limits>
-#include <string>
-#include <utility>
 
 #include "core/error.h"
 #include "input/scene/mesh_topology.h"

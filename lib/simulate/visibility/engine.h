@@ -47,6 +47,7 @@ struct Sample {
     /// into Particles::all.
     std::uint32_t number = 0;
     SampleKind kind = SampleKind::surface;
+    bool widens_from_axis = false;  ///< the footprint of a ray in a cone (taper.h)
 };
 
 /// The samples that a sonar insonifies. A footprint extends into a neighbouring beam by at most a

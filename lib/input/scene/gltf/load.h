@@ -27,6 +27,8 @@ tinygltf::Model read_gltf(const std::filesystem::path& path);
 /// Reads files of meshes, each only once, and keeps them. Not thread-safe.
 class SceneFiles {
   public:
+    SceneFiles() = default;
+    SceneFiles(const SceneFiles&) = delete;
     /// Reads the file on the first call. InputError as read_gltf and read_mesh, with the place in
     /// the mission that names the file. The reference stays valid; a reference to a heightmap or a
     /// seabed only until another one, or another part of it, is read.
@@ -34,7 +36,8 @@ class SceneFiles {
 
   private:
     struct Entry;
-    std::vector<std::shared_ptr<const Entry>> entries_;
+    std::vector<std::shared_ptr<const Entry>>
+        entries_;  ///< pointers, so that references stay valid
 };
 
 /// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.

@@ -1,6 +1,5 @@
 #include "input/scene/gltf/primitives.h"
 
-#include "core/error.h"
 #include "core/text.h"
 #include "input/scene/meshes/read_mesh.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"

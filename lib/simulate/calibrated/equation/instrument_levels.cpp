@@ -1,8 +1,5 @@
 #include "simulate/calibrated/equation/instrument_levels.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "simulate/calibrated/equation/expected_echo.h"
 #include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"

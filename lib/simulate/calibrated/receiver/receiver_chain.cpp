@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/lanes.h"
-#include "core/random.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/instrument_levels.h"

@@ -6,7 +6,6 @@
 #include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/calibrated/signal/directivity.h"
-#include "simulate/calibrated/signal/line_array.h"
 
 namespace sonarsim {
 

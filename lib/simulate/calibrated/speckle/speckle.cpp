@@ -1,7 +1,6 @@
 #include "simulate/calibrated/speckle/speckle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <optional>

@@ -1,8 +1,6 @@
 #include "simulate/visibility/octree/octree_engine.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
 #include "core/elementary.h"
 #include "simulate/visibility/caster.h"

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"

@@ -1,6 +1,5 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
 
 #include "simulate/visibility/rays/ray_columns.h"
 
@@ -75,17 +74,7 @@ Border border(const Context& context, const RayColumn& column, int below, int ab
     return out;
 }
 
-/// In a cone columns widen with the distance from the axis, where they have no width.
-void widen_from_axis(Sample& sample) {
-    std::swap(sample.edge_u, sample.edge_v);
-    const Eigen::Vector2f off = sample.position.tail<2>();
-    const float distance2 = off.squaredNorm();
-    if (!(distance2 > 0.0F)) return;
-    sample.wedge = std::clamp(off.dot(sample.edge_u.tail<2>()) / distance2, -1.0F, 1.0F);
-    sample.position += sample.wedge / 3.0F * sample.edge_u;
-}
-
-/// The surface in a ray's segment, as a parallelogram or, in a cone, a trapezoid.
+/// The surface in a ray's segment, as a parallelogram.
 Sample piece(const Context& context, const CastRay& ray, const ColumnSides& sides,
              const Segment& segment) {
     const SinCosFloat middle = sincos_small(0.5F * (segment.from.along + segment.to.along));
@@ -118,9 +107,9 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.area_m2 = solid_angle * range * range * range / ray.height_m;
     sample.material = ray.material;
     sample.instance = ray.instance;
+    sample.widens_from_axis = context.shape == ViewShape::cone;
     if (!context.columns.tubes.empty())
         apply_tube(context.columns.tubes[&ray - context.columns.rays.data()], range, sample);
-    if (context.shape == ViewShape::cone) widen_from_axis(sample);
     return sample;
 }
 

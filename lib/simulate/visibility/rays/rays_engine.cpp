@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "simulate/visibility/rays/bent_rays.h"
 #include "simulate/visibility/rays/ray_columns.h"

@@ -1,8 +1,6 @@
 #include "simulate/visibility/strips/strip_triangles.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace sonarsim {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "simulate/visibility/strips/strip_samples.h"
 #include "simulate/visibility/strips/strip_triangles.h"
