@@ -124,8 +124,8 @@ void measure_errors(const PingSet& pings, const std::vector<Reference>& referenc
 }
 
 /// One sonar with one setting. Errors are without noise: means over the poses, and the worst. Times
-/// are with noise, medians over the poses, on one thread but for `pings_per_s`. Those of Embree, and
-/// of a ping as their multiple, are CPU times, measured in turns.
+/// are with noise, medians over the poses, on one thread but for `pings_per_s`. Embree and its
+/// multiples are in CPU time, measured in turns.
 Json row_of(const std::string& sensor, const Setting& setting, const Trial& trial) {
     std::vector<double> times_rays;
     for (const PoseTimes& pose : trial.poses)
