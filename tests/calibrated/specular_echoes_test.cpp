@@ -45,11 +45,11 @@ TEST_CASE("specular echoes: a mirror that shows a piece where it is doubles its 
         piece.height_m = 0.8F * place.norm();
         piece.area_m2 = 1e-4F;
         traced.samples.items = {piece};
-        traced.bounces = {{.sample = 0,
-                           .point = place,
-                           .normal = -0.8F * direction + 0.6F * across,
-                           .material = 0,
-                           .water_reflection = 1.0F}};
+        BouncePath& bounce = traced.bounces.emplace_back();
+        bounce.sample = 0;
+        bounce.point = place;
+        bounce.normal = -0.8F * direction + 0.6F * across;
+        bounce.material = 0;
         const auto image_of = [&](const Terms& terms) {
             return image_of_traced(calibrated_model_of(sonar), sonar.settings.view, traced, terms);
         };

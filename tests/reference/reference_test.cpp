@@ -20,11 +20,10 @@ struct SurfaceSums {
 SurfaceSums sums_over(const Scene& scene, int rays, std::uint32_t start) {
     const Caster caster(scene);
     const View view{radians(60.0), radians(60.0), 0.5, 8.0, 15, 16, 0.03};
-    const LocalPose pose = local_pose(Pose{}, scene.origin);
-    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    const Pose at_rest;
     SurfaceSums sums;
     cast_over_surface(
-        {caster, scene, view, pose, shares}, {rays, 256, start}, [&](const SurfacePoint& point) {
+        {caster, scene, view, at_rest}, {rays, 256, start}, [&](const SurfacePoint& point) {
             (point.range_m < 5.0 ? sums.near_m2 : sums.far_m2) += point.area_m2;
             sums.solid_angle += point.area_m2 * point.cosine / (point.range_m * point.range_m);
         });

@@ -128,13 +128,14 @@ TEST_CASE("a footprint wider than a beam lights all beams that it covers, over a
         Samples samples;
         samples.items.push_back(point_facing({seam ? -1.0F : 1.0F, 0.0F, 0.0F}, 2.0));
         // Its beams: 3.4 to either side.
-        const BouncePath bounce{.sample = 0,
-                                .range_m = 5.0F,
-                                .range_u = 0.1F,
-                                .range_v = 0.02F,
-                                .beam = seam ? 0.5F : 20.5F,
-                                .beam_u = 3.4F,
-                                .intensity = 0.7F};
+        BouncePath bounce;
+        bounce.sample = 0;
+        bounce.range_m = 5.0F;
+        bounce.range_u = 0.1F;
+        bounce.range_v = 0.02F;
+        bounce.beam = seam ? 0.5F : 20.5F;
+        bounce.beam_u = 3.4F;
+        bounce.intensity = 0.7F;
         const MultipathEchoes out = multipath_echoes({&bounce, 1}, samples, view, {});
         float weight = 0.0F;
         for (int j = 0; j < view.beams; ++j) {

@@ -96,7 +96,7 @@ TEST_CASE("copies: next to a body that moves both are met") {
     const Scene box = box_scene({-0.5F, -0.5F, -0.5F}, {0.5F, 0.5F, 0.5F}, 1.0F);
     scene.instances.emplace_back("box");
     scene.instance_classes.emplace_back("");
-    scene.bodies.push_back({2, box.vertices, box.triangles, box.triangle_material});
+    scene.bodies.push_back({{box.vertices, box.triangles, box.triangle_material}, 2});
     const auto engine = make_rays_engine(scene);
     const Pose at{.translation = {3.0, 4.0, 0.0}};
     const auto now = engine->at({&at, 1});
@@ -144,7 +144,7 @@ TEST_CASE("placed: strips see bodies and copies as the same surface among the sc
             }
             if (k % 2 == 0) {
                 placed_scene.bodies.push_back(
-                    {instance, shape.vertices, shape.triangles, shape.triangle_material});
+                    {{shape.vertices, shape.triangles, shape.triangle_material}, instance});
                 poses.push_back({Eigen::Quaterniond(T.linear()), T.translation()});
             } else {
                 placed_scene.copies.push_back(
