@@ -28,7 +28,7 @@ enum class SampleKind : std::uint8_t {
 /// Positions and edges are those that a sonar measures: where sound bends (Scene::sound_profile),
 /// the range by the time and the direction of arrival give an apparent place, not the true one.
 struct Sample {
-    Eigen::Vector3f position;  ///< centre, sensor frame, m
+    Eigen::Vector3f position;  ///< centroid, sensor frame, m; of a wedge not the edges' middle
     Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
     Eigen::Vector3f edge_v;    ///< half the other edge
     Eigen::Vector3f normal;    ///< unit, facing the sonar; its angle to `position` is the true one
