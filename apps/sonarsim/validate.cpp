@@ -84,7 +84,7 @@ struct Findings {
 };
 
 /// The mission, or all its variants, as they are printed.
-struct Report {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
+struct Report {          // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     std::string first;   ///< text about the mission, or the first variant
     Json first_as_json;  ///< the same
     std::string state;   ///< state of its folder

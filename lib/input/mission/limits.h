@@ -61,6 +61,7 @@ constexpr std::array<Choice<T>, sizeof...(Names)> choices_of(Names... names) {
 /// The names of choices, or of other things with a name.
 std::vector<std::string> names_of(const auto& all) {
     std::vector<std::string> names;
+    names.reserve(std::size(all));
     for (const auto& one : all)
         names.emplace_back(one.name);
     return names;

@@ -7,6 +7,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene) {
     for (const SharedMesh& mesh : scene.shared_meshes)
         mesh_boxes.push_back(box_of(mesh.vertices));
     std::vector<Eigen::AlignedBox3d> boxes;
+    boxes.reserve(scene.copies.size());
     for (const MeshCopy& copy : scene.copies) {
         const Eigen::AlignedBox3d& box = mesh_boxes[copy.mesh];
         boxes.push_back(box.isEmpty() ? box : box.transformed(copy.T_world_mesh));
