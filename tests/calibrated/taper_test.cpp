@@ -2,6 +2,7 @@
 
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/patches.h"
 
 namespace {
@@ -39,19 +40,26 @@ std::vector<Sample> floor_in(int parts) {
     return out;
 }
 
-std::map<std::array<std::int32_t, 3>, int> cells_on(const std::vector<Sample>& surface) {
-    // All of one size.
+/// Calls `use(block, number)` for each scatterer on a surface, in cells of one size.
+template <class Use>
+void for_each_scatterer(const std::vector<Sample>& surface, Use use) {
     const ScattererCells cells{.min_edge_m = 0.02F,
                                .edge_per_root_range = 0.01F,
                                .max_depth_m = 0.02F,
                                .width_rad = 0.001F};
-    std::map<std::array<std::int32_t, 3>, int> out;
     Scatterers block;
     find_scatterers(surface, ViewShape::fan, cells, {}, {1, 2}, block,
                     [&](const Scatterers& found) {
                         for (int k = 0; k < found.pieces.count; ++k)
-                            ++out[{found.cell[0][k], found.cell[1][k], found.cell[2][k]}];
+                            use(found, k);
                     });
+}
+
+std::map<std::array<std::int32_t, 3>, int> cells_on(const std::vector<Sample>& surface) {
+    std::map<std::array<std::int32_t, 3>, int> out;
+    for_each_scatterer(surface, [&](const Scatterers& found, int k) {
+        ++out[{found.cell[0][k], found.cell[1][k], found.cell[2][k]}];
+    });
     return out;
 }
 
@@ -107,4 +115,34 @@ TEST_CASE("taper: long footprints hold the scatterers of short ones, each once")
     for (const auto& [cell, count] : cells_on(floor_in(1)))
         differ += count == 1 && exact.contains(cell) ? -1 : 1;
     CHECK(static_cast<double>(differ) < 2e-3 * static_cast<double>(exact.size()));
+}
+
+// A trapezoid with its centroid at `position`: its edge_v is 1 + wedge s long at the place s of
+// edge_u. Scatterers about the centroid instead of the middle would lie up to a third of edge_u
+// off.
+TEST_CASE("taper: the scatterers of a wedge lie on it, about its centroid") {
+    Draws draws(7);
+    for (int run = 0; run < 8; ++run) {
+        CAPTURE(run);
+        const Eigen::AngleAxisf turn(draws.between(0.0F, 6.0F), Eigen::Vector3f::UnitX());
+        Sample sample = patch_of({40.0F, draws.between(-1.0F, 1.0F), 0.0F}, {-1.0F, 0.0F, 0.0F},
+                                 turn * Eigen::Vector3f(0.0F, draws.between(0.5F, 1.0F), 0.0F),
+                                 turn * Eigen::Vector3f(0.0F, 0.0F, draws.between(0.5F, 1.0F)));
+        sample.wedge = draws.between(-1.0F, 1.0F);
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        int count = 0;
+        float farthest = 0.0F;
+        for_each_scatterer({sample}, [&](const Scatterers& found, int k) {
+            const Eigen::Vector3f p(found.pieces.x[k], found.pieces.y[k], found.pieces.z[k]);
+            const Eigen::Vector3f d = p - sample.middle();
+            const float s = d.dot(sample.edge_u) / sample.edge_u.squaredNorm();
+            const float t = d.dot(sample.edge_v) / sample.edge_v.squaredNorm();
+            farthest = std::max({farthest, std::fabs(s), std::fabs(t) - sample.wedge * s});
+            sum += p.cast<double>();
+            ++count;
+        });
+        REQUIRE(count > 500);
+        CHECK(farthest < 1.02F);  // the width of a fan's column varies, too
+        CHECK((sum / count - sample.position.cast<double>()).norm() < 0.02);
+    }
 }

@@ -69,8 +69,7 @@ Sample part_of(const Sample& sample, double low, double high) {
     part.edge_v *= longer;
     part.area_m2 *= share * longer;
     part.wedge *= share / longer;
-    part.position +=
-        (middle - sample.wedge / 3.0F) * sample.edge_u + part.wedge / 3.0F * part.edge_u;
+    part.position = sample.middle() + middle * sample.edge_u + part.wedge / 3.0F * part.edge_u;
     return part;
 }
 

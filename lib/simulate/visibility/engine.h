@@ -48,6 +48,9 @@ struct Sample {
     std::uint32_t number = 0;
     SampleKind kind = SampleKind::surface;
     bool widens_from_axis = false;  ///< the footprint of a ray in a cone (taper.h)
+
+    /// The middle of the edges, where a wedge is as long as its mean.
+    Eigen::Vector3f middle() const { return position - wedge / 3.0F * edge_u; }
 };
 
 /// The samples that a sonar insonifies. A footprint extends into a neighbouring beam by at most a

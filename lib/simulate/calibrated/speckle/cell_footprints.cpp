@@ -53,7 +53,7 @@ struct Surfaces {
         : count(static_cast<int>(samples.size())) {
         for (int k = 0; k < count; ++k) {
             const Sample& sample = samples[k];
-            place.set(k, sample.position - (sample.wedge / 3.0F) * sample.edge_u);
+            place.set(k, sample.middle());
             u.set(k, sample.edge_u);
             v.set(k, sample.edge_v);
             height[k] = sample.height_m;

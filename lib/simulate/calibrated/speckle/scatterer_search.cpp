@@ -216,8 +216,8 @@ class Search {
         const CellFootprints& p = footprints_;
         const int of = run.sample;
         const Sample& sample = samples_[of];
-        const Eigen::Vector3f& position = sample.position;
         const Eigen::Vector3f& u = sample.edge_u;
+        const Eigen::Vector3f middle = sample.middle();
         const Eigen::Vector3f& v = sample.edge_v;
         const int axis = p.axis[of];
         const int first = (axis + 1) % 3;
@@ -228,9 +228,9 @@ class Search {
             const auto along = [&](float centre, float by_s, float by_t) {
                 return fma(s, by_s, fma(t, by_t, centre));
             };
-            along(position.x(), u.x(), v.x()).store(pieces.x.data() + k);
-            along(position.y(), u.y(), v.y()).store(pieces.y.data() + k);
-            along(position.z(), u.z(), v.z()).store(pieces.z.data() + k);
+            along(middle.x(), u.x(), v.x()).store(pieces.x.data() + k);
+            along(middle.y(), u.y(), v.y()).store(pieces.y.data() + k);
+            along(middle.z(), u.z(), v.z()).store(pieces.z.data() + k);
             Floats8(sample.height_m).store(pieces.height_m.data() + k);
             Ints8(sample.material)
                 .store(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k);
