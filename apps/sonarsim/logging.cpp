@@ -41,6 +41,8 @@ class TextFormatter : public spdlog::formatter {
         spdlog::details::log_msg shown = message;
         shown.payload = text;
         line_.format(shown, out);
+        message.color_range_start = shown.color_range_start;
+        message.color_range_end = shown.color_range_end;
     }
     std::unique_ptr<spdlog::formatter> clone() const override {
         return std::make_unique<TextFormatter>(pattern_);

@@ -102,7 +102,8 @@ class Render(Sandbox):
         self.write("path.csv", path_csv(poses))
         ours, theirs = pty.openpty()
         with subprocess.Popen([SONARSIM, "render", "mission.yaml", "--no-files", "-j1"], cwd=self.folder,
-                              stdout=subprocess.DEVNULL, stderr=theirs) as process:
+                              env={**os.environ, "TERM": "xterm"}, stdout=subprocess.DEVNULL,
+                              stderr=theirs) as process:
             os.close(theirs)
             shown = b""
             try:
@@ -113,6 +114,7 @@ class Render(Sandbox):
         os.close(ours)
         self.assertEqual(process.returncode, 0)
         self.assertRegex(shown.decode(), rf"[0-9]+ of {poses} pings, [0-9]+ pings/s, .* left")
+        self.assertIn(b"\x1b[32minfo\x1b[m: ", shown)
 
 
 def of_process(pid, name):
