@@ -1,30 +1,5 @@
 #include "simulate/product/contrast.h"
-#include "simulate/product/object_table.h"
-#include "simulate/product/picture.h"
 #include "support/test.h"
-
-namespace {
-
-using Ids = std::vector<std::uint16_t>;
-
-/// Writes the id of a mask into its pixels.
-void paint(const ObjectMask& mask, Ids& ids) {
-    std::size_t at = 0;
-    for (std::size_t k = 0; k < mask.runs.size(); ++k) {
-        if (k % 2 == 1) std::fill_n(ids.begin() + at, mask.runs[k], mask.id);
-        at += mask.runs[k];
-    }
-    CHECK(at == ids.size());
-}
-
-}  // namespace
-
-TEST_CASE("boxes of pixels: an empty one adds nothing") {
-    const PixelBox box{4, 8, 10, 14};
-    CHECK(joined(box, {5, 9, 2, 10}) == PixelBox{4, 9, 2, 14});
-    CHECK(joined({}, box) == box);
-    CHECK(joined(box, {}) == box);
-}
 
 TEST_CASE("contrast: the level of an object over that next to it at the same range") {
     // 9 lines of 3 bins. The background grows tenfold from bin to bin, as with range; the
@@ -110,30 +85,4 @@ TEST_CASE("contrast: a shadow ends where it looks like its surroundings") {
         CHECK(visible_shadows(map, {{0, 0, 1}}, is_background) == object);
     }
     CHECK(mean < 28.0);  // ranges; by chance some are dark
-}
-
-TEST_CASE("masks: random pictures come back") {
-    std::mt19937 random(3);
-    for (int trial = 0; trial < 50; ++trial) {
-        const int height = 1 + static_cast<int>(random() % 9);
-        Ids ids(static_cast<std::size_t>(height) * (1 + random() % 9));
-        for (std::uint16_t& id : ids)
-            id = static_cast<std::uint16_t>(random() % 4);
-        Ids painted(ids.size(), 0);
-        for (const ObjectMask& mask : object_masks(ids, height)) {
-            paint(mask, painted);
-            PixelBox box;
-            std::uint64_t area = 0;
-            for (std::size_t n = 0; n < ids.size(); ++n) {
-                if (ids[n] != mask.id) continue;
-                const int x = static_cast<int>(n) / height;
-                const int y = static_cast<int>(n) % height;
-                box = joined(box, {x, x + 1, y, y + 1});
-                ++area;
-            }
-            CHECK(PixelBox{mask.left, mask.right, mask.top, mask.bottom} == box);
-            CHECK(mask.area == area);
-        }
-        CHECK(painted == ids);
-    }
 }
