@@ -71,34 +71,34 @@ Surface plane(double half_m, double a, double b) {
 /// the nodes of the bottom.
 double min_gap(const Surface& object) {
     double gap = 1e9;
-    for (const auto& corners : object.triangles) {
-        const Eigen::Vector3d& a = object.vertices[corners[0]];
-        const Eigen::Vector3d& b = object.vertices[corners[1]];
-        const Eigen::Vector3d& c = object.vertices[corners[2]];
-        for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-            const int steps = 1 + static_cast<int>((to - from).norm() / 1e-3);
-            for (int k = 0; k <= steps; ++k) {
-                const Eigen::Vector3d p = from + static_cast<double>(k) / steps * (to - from);
+    const auto node_of = [](double x) { return (x + Waves::half_m) / Waves::cell_m; };
+    for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+        const std::array<Eigen::Vector3d, 3> corners = corners_of(object, t);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Eigen::Vector3d along = corners[(k + 1) % 3] - corners[k];
+            const int steps = 1 + static_cast<int>(along.norm() / 1e-3);
+            for (int n = 0; n <= steps; ++n) {
+                const Eigen::Vector3d p = corners[k] + static_cast<double>(n) / steps * along;
                 gap = std::min(gap, p.z() - Waves::height(p.x(), p.y()));
             }
         }
-        const auto node_of = [](double x) { return (x + Waves::half_m) / Waves::cell_m; };
-        const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
-        const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
-        const Eigen::Vector3d normal = (b - a).cross(c - a);
-        if (std::fabs(normal.z()) < 1e-9) continue;
-        for (int j = static_cast<int>(std::ceil(node_of(low.y()))); j <= node_of(high.y()); ++j) {
-            for (int i = static_cast<int>(std::ceil(node_of(low.x()))); i <= node_of(high.x());
-                 ++i) {
-                Eigen::Vector3d p(i * Waves::cell_m - Waves::half_m,
-                                  j * Waves::cell_m - Waves::half_m, 0.0);
-                p.z() = a.z() -
-                        (normal.x() * (p.x() - a.x()) + normal.y() * (p.y() - a.y())) / normal.z();
-                const auto left = [&](const Eigen::Vector3d& q, const Eigen::Vector3d& r) {
-                    return (r - q).cross(p - q).dot(normal) >= 0.0;
-                };
-                if (left(a, b) && left(b, c) && left(c, a))
-                    gap = std::min(gap, p.z() - Waves::node(i, j));
+        // A place of the face by the shares of its corners.
+        Eigen::Matrix3d from_shares;
+        from_shares << corners[0], corners[1], corners[2];
+        const Eigen::RowVector3d heights = from_shares.row(2);
+        from_shares.row(2).setOnes();
+        if (std::fabs(from_shares.determinant()) < 1e-9) continue;
+        const Eigen::Matrix3d to_shares = from_shares.inverse();
+        const Eigen::AlignedBox2d around = box_from_above(corners);
+        for (int j = static_cast<int>(std::ceil(node_of(around.min().y())));
+             j <= node_of(around.max().y()); ++j) {
+            for (int i = static_cast<int>(std::ceil(node_of(around.min().x())));
+                 i <= node_of(around.max().x()); ++i) {
+                const Eigen::Vector3d shares =
+                    to_shares * Eigen::Vector3d(i * Waves::cell_m - Waves::half_m,
+                                                j * Waves::cell_m - Waves::half_m, 1.0);
+                if (shares.minCoeff() >= 0.0)
+                    gap = std::min(gap, heights.dot(shares) - Waves::node(i, j));
             }
         }
     }
@@ -180,29 +180,22 @@ TEST_CASE("placing: a thousand objects rest on the bottom within a millimetre, a
     }
 }
 
-TEST_CASE("placing: burial, the same draws from the same seed, others from another") {
+TEST_CASE("placing: metres or a share of the height are buried, what would vanish is redrawn") {
     const Bottom bottom(Waves::surface());
     const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
-    ScatterConfig rule;
-    rule.bury_m = {0.07, 0.07};
-    const auto once = put(shapes, rule, 5, bottom);
-    const auto again = put(shapes, rule, 5, bottom);
-    const auto other = put(shapes, rule, 6, bottom);
-    for (std::size_t i = 0; i < once.size(); ++i) {
-        CHECK(std::fabs(min_gap(once[i]) + 0.07) < 1e-3);
-        CHECK(once[i].vertices[0] == again[i].vertices[0]);
-        CHECK(once[i].vertices[0] != other[i].vertices[0]);
-    }
-}
-
-TEST_CASE("placing: a share of the height is buried or raised, and what would vanish is redrawn") {
-    const Bottom bottom(Waves::surface());
-    const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
-    for (const double share : {0.4, -0.5}) {
+    for (const auto& [metres, share] : {std::pair(0.07, 0.0), {0.0, 0.4}, {0.0, -0.5}}) {
         ScatterConfig rule;
+        rule.bury_m = {metres, metres};
         rule.bury = {share, share};
-        for (const Surface& one : put(shapes, rule, 5, bottom))
-            CHECK(std::fabs(min_gap(one) + share * box_of(one).sizes().z()) < 1e-3);
+        const auto once = put(shapes, rule, 5, bottom);
+        const auto again = put(shapes, rule, 5, bottom);
+        const auto other = put(shapes, rule, 6, bottom);
+        for (std::size_t i = 0; i < once.size(); ++i) {
+            const double buried_m = metres + share * box_of(once[i]).sizes().z();
+            CHECK(std::fabs(min_gap(once[i]) + buried_m) < 1e-3);
+            CHECK(once[i].vertices[0] == again[i].vertices[0]);
+            CHECK(once[i].vertices[0] != other[i].vertices[0]);
+        }
     }
     ScatterConfig rule;
     rule.bury_m = {0.0, 3.0};  // few of the draws leave a part in sight

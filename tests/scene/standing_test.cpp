@@ -83,12 +83,6 @@ TEST_CASE("standing: asks for up only where the format does not say it") {
     CHECK(up_question({.file = "ball.obj"}, ball()).empty());
 }
 
-TEST_CASE("standing: how a file is read, in words") {
-    CHECK(reading_of({.file = "a.stl"}) == "metres, y up (no `up` given)");
-    CHECK(reading_of({.file = "a.stl", .unit_m = 1e-3, .z_up = true, .up_given = true}) ==
-          "millimetres, z up");
-}
-
 TEST_CASE("units: a question where millimetres would fit the ranges") {
     const auto question = [](double length_m, double unit_m, auto kind) {
         return unit_question(length_m, unit_m, 10.0, kind);

@@ -36,20 +36,6 @@ void check_square(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("glTF: y up becomes z up, and a triangle knows material and instance") {
-    GltfBuilder gltf = one_triangle();
-    gltf.document["nodes"][0]["translation"] = {1, 2, 3};
-    const Scene scene = load(gltf);
-    REQUIRE(scene.triangles.size() == 1);
-    // (x, -z, y) of (1 2 3), (2 2 3), (1 3 3).
-    check_triangle(scene, 0, {{{1, -3, 2}, {2, -3, 2}, {1, -3, 3}}});
-    CHECK(scene.materials.at(scene.triangle_material[0]).name == "steel");
-    CHECK(scene.materials.at(0).density_kg_m3 == 7850.0);
-    CHECK(scene.materials.at(0).reflection > 0.8F);
-    CHECK(scene.instances.at(scene.triangle_instance[0]) == "tri");
-    CHECK(scene.rejects.degenerate_triangles == 0);
-}
-
 TEST_CASE("glTF: lists, strips and fans, with every type of index and none") {
     check_square(load(square_mesh(5)));
     check_square(load(indexed_square<std::uint16_t>({2, 0, 3, 1}, 5)));

@@ -49,26 +49,6 @@ double upward_area(const Surface& surface) {
 
 }  // namespace
 
-TEST_CASE("the first row of a heightmap is the north, its first column the west") {
-    const MapFile map({1, 2, 3, 4, 5, 6}, 3, {.west_m = 100, .north_m = 50, .cell_m = 2});
-    const Surface surface = map.surface();
-    CHECK(surface.triangles.size() == 4);
-    // Centres of the pixels: x = 101, 103, 105; y = 49, 47.
-    CHECK(has_vertex(surface, {101, 49, 1}));
-    CHECK(has_vertex(surface, {105, 49, 3}));
-    CHECK(has_vertex(surface, {101, 47, 4}));
-    CHECK(has_vertex(surface, {105, 47, 6}));
-    // Counter-clockwise from above: the whole map from 101 to 105 and from 47 to 49.
-    CHECK(upward_area(surface) == approx(8.0));
-    // Triangles share the edge from the north-west to the south-east.
-    const Bottom bottom(surface);
-    CHECK(*bottom.highest({102, 48}) == approx(0.5 * (1 + 5)));
-    // The mission's pixel size replaces the place in the file.
-    const MapFile pixels({1, 2, 3, 4, 5, 6}, 3, {.west_m = 100, .north_m = 50}, {.pixel_m = 2.0});
-    CHECK(has_vertex(pixels.surface(), {1, 3, 1}));
-    CHECK(has_vertex(pixels.surface(), {5, 1, 6}));
-}
-
 TEST_CASE("a pixel without a height is a hole of the triangles that need it") {
     std::vector<float> heights(16, 3.0F);
     const auto triangles = [&] { return MapFile(heights, 4, {}).surface().triangles.size(); };
