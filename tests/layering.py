@@ -170,7 +170,7 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, dict[str, list[str]], list[
 
 def faults_in_tests(root: pathlib.Path) -> list[str]:
     """The tests that compare numbers by doctest::Approx, which allows its epsilon for any small number."""
-    return [f"{path.relative_to(root)}: compare by test::approx (tests/support/approx.h)"
+    return [f"{path.relative_to(root)}: compare by test::approx (tests/support/test.h)"
             for path in sorted((root / "tests").rglob("*.cpp")) if "doctest::Approx" in path.read_text()]
 
 

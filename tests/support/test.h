@@ -40,7 +40,6 @@
 #include "core/units.h"
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/view.h"
-#include "support/approx.h"
 #include "support/shapes.h"
 
 namespace sonarsim::test {
@@ -72,6 +71,12 @@ struct TemporaryFolder {
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 };
+
+/// doctest's Approx with a relative tolerance at every scale: |a - b| < epsilon max(|a|, |b|).
+/// doctest adds 1 to the maximum, so that its Approx(1e-8) equals 0.
+inline doctest::Approx approx(double value) {
+    return doctest::Approx(value).scale(std::numeric_limits<double>::min());
+}
 
 /// The values as text, for messages.
 template <class... Values>
