@@ -3,7 +3,6 @@
 #include "input/mission/parse.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
-#include "support/source_folder.h"
 
 namespace sonarsim::test {
 

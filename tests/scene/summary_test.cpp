@@ -1,7 +1,6 @@
 #include "input/scene/summary.h"
 
 #include "scene/gltf/builder.h"
-#include "support/source_folder.h"
 
 TEST_CASE("summary: bounds, areas, materials, instances and what was dropped") {
     GltfBuilder gltf = one_triangle();

@@ -1,4 +1,4 @@
-#include "support/source_folder.h"
+#include <filesystem>
 
 namespace sonarsim::test {
 

@@ -78,6 +78,9 @@ inline doctest::Approx approx(double value) {
     return doctest::Approx(value).scale(std::numeric_limits<double>::min());
 }
 
+/// The folder of the sources under test.
+std::filesystem::path source_folder();
+
 /// The values as text, for messages.
 template <class... Values>
 std::string listed(const Values&... values) {

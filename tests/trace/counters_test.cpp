@@ -1,6 +1,5 @@
 #include "simulate/trace/counters.h"
 
-#include "support/source_folder.h"
 #include "support/test.h"
 
 namespace {
