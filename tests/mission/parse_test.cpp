@@ -5,17 +5,16 @@
 
 namespace {
 
-/// A mission in `folder` whose only sensor is `sensor`, written in one line.
-Mission mission_with(const std::filesystem::path& folder, const std::string& sensor,
+/// A mission whose only sensor has this preset, followed by `more` keys.
+Mission mission_with(const std::string& preset, const std::string& more = "",
                      const std::vector<std::string>& settings = {}) {
+    const TemporaryFolder folder;
+    write_file(folder.path / "p.yaml", preset);
     return parse_mission(
-        "scene: {file: a.glb, materials: a.csv}\ntrajectory: {file: a.tum}\nsensors:\n  fls: " +
-            sensor + "\n",
-        "m.yaml", folder, settings, sonar_keys());
-}
-
-std::string refusal_of_preset(const std::filesystem::path& folder, const std::string& sensor) {
-    return fault_of([&] { mission_with(folder, sensor); });
+        "scene: {file: a.glb, materials: a.csv}\ntrajectory: {file: a.tum}\n"
+        "sensors:\n  fls: {preset: p.yaml" +
+            more + "}\n",
+        "m.yaml", folder.path, settings, sonar_keys());
 }
 
 }  // namespace
@@ -86,12 +85,10 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
 }
 
 TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
-    const TemporaryFolder folder;
-    std::ofstream(folder.path / "p.yaml")
-        << "kind: imaging\nmodel: calibrated\nrange_max_m: 30\n"
-           "instrument:\n  frequency_hz: 7e5\n  beam: {width_deg: 1.5, side_lobe_db: -20}\n";
     const Mission mission = mission_with(
-        folder.path, "{preset: p.yaml, range_max_m: 20, instrument: {beam: {width_deg: 2}}}",
+        "kind: imaging\nmodel: calibrated\nrange_max_m: 30\n"
+        "instrument:\n  frequency_hz: 7e5\n  beam: {width_deg: 1.5, side_lobe_db: -20}\n",
+        ", range_max_m: 20, instrument: {beam: {width_deg: 2}}",
         {"sensors.fls.instrument.receiver.bits=12"});
     const SonarConfig& sonar = mission.sensors[0];
     CHECK(sonar.model == ModelKind::calibrated);
@@ -103,17 +100,13 @@ TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
     CHECK(sonar.preset.empty());
 }
 
+// A preset that does not exist: cli/test_refusals.py.
 TEST_CASE("what is wrong with a preset is said where it stands") {
-    const TemporaryFolder folder;
-    CHECK(refusal_of_preset(folder.path, "{preset: none.yaml}").find("there is no preset") !=
-          std::string::npos);
-    std::ofstream(folder.path / "typo.yaml") << "kind: imaging\nrange_maxm: 3\n";
-    CHECK(refusal_of_preset(folder.path, "{preset: typo.yaml}")
-              .find("typo.yaml:2:1: unknown key 'range_maxm' (did you mean 'range_max_m'?)") !=
-          std::string::npos);
-    std::ofstream(folder.path / "nested.yaml") << "preset: typo.yaml\n";
-    CHECK(refusal_of_preset(folder.path, "{preset: nested.yaml}")
-              .find("nested.yaml:1:1: a preset cannot name a preset") != std::string::npos);
+    for (const auto& [preset, words] :
+         {std::pair("kind: imaging\nrange_maxm: 3\n",
+                    "p.yaml:2:1: unknown key 'range_maxm' (did you mean 'range_max_m'?)"),
+          {"preset: other.yaml\n", "p.yaml:1:1: a preset cannot name a preset"}})
+        CHECK_THROWS_WITH_AS(mission_with(preset), doctest::Contains(words), InputError);
 }
 
 TEST_CASE("values that are read: engines, labels, classes, water, sensors in their order") {

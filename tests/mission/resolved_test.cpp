@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A mission in which nothing has its default and every number needs all its digits.
+/// A mission with names that need quotes and numbers that need all their digits.
 Mission unusual_mission() {
     Mission mission;
     mission.name = "näme \"with\" \\ quotes: # {";
@@ -18,34 +18,15 @@ Mission unusual_mission() {
     mission.scene = {"/s p/a'\".glb", "/m/ü.csv"};
     mission.trajectory =
         LawnmowerTrajectoryConfig{{-1.0 / 3.0, 2}, {4, 5e6}, -6.5, 45, 3, 0.1, 1e3};
-    mission.vehicle = {{0.1, -2, 1e5}, {0.25, 5, -30}};
     SonarConfig sonar;
     sonar.name = "null";
     sonar.mount = {{1e-7, -2, 0.1}, {-4, 5, 0.2 + 0.1}};
-    sonar.every = 7;
     sonar.moves_in_ping = true;
     sonar.shutter = {4, ShutterOrder::interleaved, 0.07};
-    sonar.azimuth_deg = 59.5;
-    sonar.elevation_deg = 12.25;
-    sonar.range_min_m = 0.3;
-    sonar.range_max_m = 1.0 / 0.07;
-    sonar.range_bins = 33;
-    sonar.azimuth_bins = 44;
-    sonar.multipath = {MultipathMethod::exact, 7, 0.1};
     sonar.noise = {0.041, 0.013, 1e-300, 0.151, false, 3.5};
-    sonar.streaks = {StreakMode::reduce, 0.3, 1.25};
     mission.sensors = {sonar, sonar};
     mission.sensors[1].name = "-";
-    mission.accuracy = {0.0123};
-    mission.engine = EngineKind::octree;
-    mission.octree = {0.0234};
-    mission.output = {.folder = "/o",
-                      .polar = false,
-                      .image = true,
-                      .fan = false,
-                      .stages = true,
-                      .full_scale = 0.125,
-                      .xtf = true};
+    mission.output.folder = "/o";
     return mission;
 }
 

@@ -35,6 +35,9 @@ vary:
   - {key: sensors.fls.mount, choice: [{rpy_deg: [0, 10, 0]}, {translation_m: [1, 0, 0]}]}
 )";
 
+/// What follows the scene in the smallest mission.
+const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
+
 }  // namespace
 
 TEST_CASE("the keys of a composed scene") {
@@ -78,7 +81,6 @@ TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its 
     const std::string head =
         "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n  area: {min_m: [0, 1], max_m: [10, "
         "5]}\n";
-    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
     const Mission mission = parse(
         head +
         "  scatter:\n    - {name: a, files: [m.glb, n.glb, o.glb, p.glb], stock: [can, net]}\n"
@@ -112,7 +114,6 @@ TEST_CASE("clutter: by default no kind that a rule of scatter labels") {
         files += ", m.glb";
     const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1, size_m: [9, 9]}\n";
     const std::string clutter = "  clutter: {density_per_m2: 0.5, files: [" + files + "]}\n";
-    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
     for (const std::string unlabelled : {"false", "true"}) {
         const Mission mission = parse(
             head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], unlabelled: " +
@@ -125,7 +126,6 @@ TEST_CASE("clutter: by default no kind that a rule of scatter labels") {
 
 TEST_CASE("what is refused of stock, clutter and areas") {
     const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n";
-    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
     const auto begins = [&](const std::string& text, const std::string& words) {
         CHECK_MESSAGE(refusal(head + text + tail).starts_with("m.yaml:" + words),
                       refusal(head + text + tail));
