@@ -92,6 +92,7 @@ TEST_CASE_FIXTURE(MissionInFolder,
         write_file(note, "mine");
     }
     write_file(out / "front/polar/.000007.npy.0123456789abcdef.part", "half");
+    write_file(out / "front/mine.txt", "goes with the folder of the sensor");
     mission.sensors[1].name = "left";
     CHECK(run_poses(mission, 3, true).complete);
     const auto files = contents(out);

@@ -1,4 +1,3 @@
-#include "input/scene/copies.h"
 #include "scene/gltf/builder.h"
 
 using nlohmann::json;
@@ -33,37 +32,6 @@ TEST_CASE("glTF: instanced meshes and unique instance names") {
     CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 1, 2, 3});
     CHECK(scene.vertices.size() == 12);
     check_point(world_corner(scene, 3, 0), 7, 0, 0);
-}
-
-TEST_CASE("copies of a shared mesh lie where copied triangles do") {
-    const TemporaryFolder folder;
-    const auto path = written(folder, "x.glb", one_triangle().glb());
-    std::vector<PlacedFile> files;
-    for (const double x : {1.0, 5.0, -3.0}) {
-        PlacedFile& file = files.emplace_back(PlacedFile{.file = path});
-        file.name = "t" + std::to_string(files.size());
-        file.T_world_file.translate(Eigen::Vector3d(x, 2.0 * x, 0.5));
-        file.T_world_file.rotate(Eigen::AngleAxisd(x, Eigen::Vector3d::UnitZ()));
-        file.T_world_file.scale(1.5);
-    }
-    SceneFiles models;
-    const MaterialTable table = parse_materials(test_materials, "m.csv");
-    const Scene copied = load_scene(files, models, table, "", Water{});
-    const Scene shared = load_scene(files, models, table, "", Water{}, 0);
-    CHECK(shared.instances == copied.instances);
-    CHECK(shared.triangles.empty());
-    REQUIRE(shared.shared_meshes.size() == 1);
-    REQUIRE(shared.copies.size() == 3);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto corners = placed_corners(shared, shared.copies[i], 0);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Eigen::Vector3d p = world_corner(copied, i, k);
-            const Eigen::Vector3d placed = shared.origin + corners[k].cast<double>();
-            check_point(placed, p.x(), p.y(), p.z());
-        }
-    }
-    CHECK((shared.bounds_min.array() < copied.bounds_min.array() + 1e-5).all());
-    CHECK((shared.bounds_max.array() > copied.bounds_max.array() - 1e-5).all());
 }
 
 TEST_CASE("glTF: default scene, first scene, all roots") {
