@@ -15,11 +15,6 @@ Sonar three_beams(bool scale_with_range = false) {
     return make_sonar(config, {});
 }
 
-/// A flat bottom 40 m below the origin.
-Scene deep_bottom() {
-    return floor_scene(200.0F, -40.0F, 0.5F);
-}
-
 /// 1500 m/s + `gradient` z.
 std::shared_ptr<const SoundProfile> linear_profile(double gradient) {
     return std::make_shared<const SoundProfile>(
@@ -249,7 +244,7 @@ TEST_CASE("bathymetry: cells of any size, anywhere, have a picture") {
 
 TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the water") {
     for (const double g : {0.5, -0.5}) {
-        Scene scene = deep_bottom();
+        Scene scene = floor_scene(200.0F, -40.0F, 0.5F);
         scene.sound_profile = linear_profile(g);
         Sonar sonar = multibeam(120.0, 240);
         sonar.sound_profile = scene.sound_profile;
@@ -270,7 +265,7 @@ TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the
 TEST_CASE("soundings of a sonar that rolls and drives in a ping lie on the flat bottom") {
     // In the 80 ms until the echo is back the sonar rolls by a degree, which moves a sounding
     // 50 degrees off by 0.8 m in height, and drives by 0.3 m.
-    Scene scene = deep_bottom();
+    Scene scene = floor_scene(200.0F, -40.0F, 0.5F);
     Sonar sonar = multibeam(90.0, 100, 100.0);
     // In the sensor's frame, whose z axis points ahead.
     const PingMotion motion{{0.0, 0.0, 4.0}, {0.0, 0.0, radians(12.0)}, 1500.0};
