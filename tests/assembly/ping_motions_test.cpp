@@ -15,12 +15,6 @@ Trajectory along_x() {
     return vehicle;
 }
 
-Mission mission_of(const SonarConfig& config) {
-    Mission mission;
-    mission.sensors = {config};
-    return mission;
-}
-
 SonarConfig camera() {
     SonarConfig config = default_sonar(SonarKind::imaging);
     config.name = "fls";
@@ -83,7 +77,8 @@ TEST_CASE("ping motions: a scanning head has the pattern half way in time, a fan
 }
 
 TEST_CASE("ground in range: the mounts that are drawn for pings reach as far") {
-    Mission mission = mission_of(camera());
+    Mission mission;
+    mission.sensors = {camera()};
     VaryConfig rule;
     rule.key = "sensors.fls.mount.translation_m.1";
     rule.per = VaryPer::ping;
@@ -109,7 +104,8 @@ TEST_CASE("ground in range: the last group of beams looks from further on") {
     config.moves_in_ping = true;
     config.shutter.groups = 4;
     config.shutter.period_s = 0.2;
-    const Mission mission = mission_of(config);
+    Mission mission;
+    mission.sensors = {config};
     std::vector<Sonar> sonars{make_sonar(config, {})};
     const Trajectory vehicle = along_x();
     add_ping_motions(mission, vehicle, sonars);

@@ -7,7 +7,7 @@
 // The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must
 // keep the promises of Trajectory and survive writing, reading and resampling.
 
-namespace sonarsim {
+using namespace sonarsim;
 
 namespace {
 
@@ -23,10 +23,7 @@ void check_poses(const Trajectory& poses) {
 
 }  // namespace
 
-}  // namespace sonarsim
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace sonarsim;
     if (size == 0) return 0;
     const std::string_view text = text_of(data + 1, size - 1);
     Trajectory poses;
