@@ -60,25 +60,6 @@ TEST_CASE("sonar panel: a fan fits, and an echo to port lies to the left at its 
         CHECK((at(range) > at(range + 0.5) + 60) == (std::fmod(range, 2.0) == 0.0));
 }
 
-TEST_CASE("sonar panel: brightness finds itself, and the scale of the echoes changes nothing") {
-    const Sonar sonar = imaging();
-    const auto panel_of = [&](float scale) {
-        const auto render = [&](std::uint32_t) {
-            Ping ping = even_ping(sonar, 0.0F);
-            for (std::size_t k = 0; k < ping.intensity.size(); ++k)
-                ping.intensity[k] = scale * static_cast<float>(k % 100);
-            return ping;
-        };
-        return draw_sonar(sonar, 0, 1, render, 300, 210);
-    };
-    // A power of two, which rounds nothing. One in a hundred of 1 to 99 exceeds 98, to 3 %.
-    const SonarPanel usual = panel_of(1.0F);
-    const SonarPanel faint = panel_of(0x1p-20F);
-    CHECK(faint.picture.pixels == usual.picture.pixels);
-    CHECK(faint.white == usual.white * 0x1p-20);
-    CHECK(usual.white == approx(98.0).epsilon(0.04));
-}
-
 TEST_CASE("sonar panel: a waterfall has port on the left, a row per ping and marks at this one") {
     SonarConfig config = default_sonar(SonarKind::sidescan);
     set_range(config, 0.5, 20.0, 390);  // bins of 0.05 m
