@@ -35,7 +35,7 @@ vary:
   - {key: sensors.fls.mount, choice: [{rpy_deg: [0, 10, 0]}, {translation_m: [1, 0, 0]}]}
 )";
 
-/// What follows the scene in the smallest mission.
+/// The smallest mission without its scene.
 const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
 
 }  // namespace

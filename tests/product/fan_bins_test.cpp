@@ -74,7 +74,7 @@ TEST_CASE("fan of ids: the box of a bin holds its pixels and no others around th
     }
     CHECK(boxes.size() == 90 * 40);
     CHECK(fan.boxes == boxes);
-    CHECK(joined(boxes.front(), {}) == boxes.front());  // of a bin without pixels
+    CHECK(joined(boxes.front(), {}) == boxes.front());  // a bin without pixels
 }
 
 TEST_CASE("even kernel: whatever the place, the same noise, the right centroid, no lobes") {
