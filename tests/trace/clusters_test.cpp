@@ -53,16 +53,6 @@ TEST_CASE("clusters keep their limits, and every sample is in one") {
           }) == std::ssize(visible));
 }
 
-TEST_CASE("epsilon 0 is the exact method") {
-    SonarConfig config = small_imaging();
-    const auto render = [&](MultipathMethod method, int epsilon) {
-        config.multipath = {method, epsilon, 15.0};
-        return look(make_sonar(config, {}), tank(), tank_poses()[0]).intensity;
-    };
-    CHECK(render(MultipathMethod::exact, 5) == render(MultipathMethod::cluster, 0));
-    CHECK(render(MultipathMethod::exact, 5) != render(MultipathMethod::none, 0));
-}
-
 TEST_CASE("clusters light the bins that the exact method lights") {
     struct Tally {
         int exact = 0, missed = 0, wrong = 0;
