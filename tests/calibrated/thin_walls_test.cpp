@@ -122,30 +122,6 @@ TEST_CASE("thin walls: transmission is that of the waves in the wall") {
     CHECK(wall_transmission({.name = "solid"}, frequency_hz, water) == 0.0);
 }
 
-TEST_CASE("thin walls: the echo of a plate falls by T^2 for each wall before it") {
-    for (const Setting& setting : settings) {
-        const Sonar sonar = wall_sonar(setting.kind);
-        for (std::uint32_t n = 0; n < 4; ++n) {
-            Draws draws(n);
-            const Eigen::Vector3f normal = -Eigen::Vector3f::UnitX() + 0.25F * draws.in_ball();
-            const float first_m = draws.between(1.5F, 3.0F);
-            const float rear_m = first_m + draws.between(1.0F, 3.0F);
-            const Material first = drawn_wall(draws);
-            const Material second = drawn_wall(draws);
-            WallScene walls(sonar);
-            walls.add_plate(rear_m, normal, 0);
-            const double alone = walls.energy(sonar, setting.engine);
-            walls.add_plate(first_m, normal, walls.add(first));
-            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
-            CHECK(walls.energy(sonar, setting.engine) / alone ==
-                  approx(two_way(first)).epsilon(0.01));
-            walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
-            CHECK(walls.energy(sonar, setting.engine) / alone ==
-                  approx(two_way(first) * two_way(second)).epsilon(0.01));
-        }
-    }
-}
-
 // A closed body takes away a part of the echo behind it, and two walls give T^4 of it back. The
 // bodies are targets or large enough for an engine.
 TEST_CASE("thin walls: a shadow holds T^4 of the echo without the body") {
