@@ -184,27 +184,6 @@ TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the
     }
 }
 
-TEST_CASE("speckle: the second moment of scatterers, and their mean") {
-    const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                      "    instrument: {usual_water: none, receiver: {samples: 1}, beam: "
-                      "{side_lobe_db: -13.3, elements: {gain_error_db: 0, "
-                      "phase_error_deg: 0}}}\n");
-    std::vector<double> means, seconds;
-    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-        std::vector<double> powers =
-            patch.normalised(quiet_image(patch.sonar, patch.surface, true, {}, seed), 8, 50);
-        means.push_back(mean(powers));
-        for (double& power : powers)
-            power *= power;
-        seconds.push_back(mean(powers));
-    }
-    // Sums of Gaussian amplitudes have 2; the contrast is the root of this less 1. 4.5 standard
-    // errors of 20 seeds: two such tests fail once in 2,000 runs. The spline that stands for
-    // the pulse adds a hundredth.
-    CHECK(std::fabs(mean(means) - 1.0) < 4.5 * standard_error(means));
-    CHECK(std::fabs(mean(seconds) - 2.0) < 4.5 * standard_error(seconds) + 0.02);
-}
-
 // Given their places, amplitudes of scatterers are Gaussian, so the contrast of speckle is
 // sqrt(1 + 2 v), v the variance of the power that a resolution cell holds over its square.
 TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
