@@ -1,14 +1,10 @@
 #include "simulate/reference/reference.h"
 
-#include "core/random.h"
 #include "simulate/reference/reference_cast.h"
 #include "support/calibrated.h"
+#include "support/lattices.h"
 
 namespace {
-
-View small_view() {
-    return {radians(40.0), radians(20.0), 0.5, 8.0, 100, 20, 0.03};
-}
 
 /// The visible area nearer and farther than 5 m, and the sum of cos(incidence) dA / r^2.
 struct SurfaceSums {
@@ -39,32 +35,12 @@ Sonar coarse_sonar(SonarKind kind) {
 
 }  // namespace
 
-TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
-    // Derivation in tests/sonar/imaging_test.cpp.
-    constexpr float R = 0.7F;
-    constexpr double H = 1.5;
-    Scene scene = floor_scene(100.0F, 0.0F, R);
-    const Caster caster(scene);
-    const View view = small_view();
-    const Pose pose = pitched(30.0, {0.0, 0.0, H});
-    const Reference reference = cast_reference(caster, scene, view, pose, {0.0005, 64.0});
-    CHECK(reference.noise < 0.0005);
-    CHECK(reference.rays_per_bin >= 64.0);
-    const int first = static_cast<int>((H / std::sin(radians(40.0)) - 0.5) / view.bin_m()) + 2;
-    const int last = static_cast<int>((H / std::sin(radians(20.0)) - 0.5) / view.bin_m()) - 2;
-    for (int i = first; i <= last; ++i) {
-        const double r = view.range_min_m + (i + 0.5) * view.bin_m();
-        CHECK(reference.intensity[i * 20 + 10] == approx(R * H / r).epsilon(2e-3));
-    }
-}
-
 TEST_CASE("where two surfaces share a bin the reference weighs them by area") {
     // Two walls at one distance, R = 0.2 below the sonar, 0.8 above: the mean is 0.5 D / r.
     Scene scene = rectangle_scene({4, -9, -9}, {4, 9, 0}, 0.2F);
     add_rectangle(scene, {4, -9, 0}, {4, 9, 9}, add_material(scene, 0.8F));
     const Caster caster(scene);
-    View view = small_view();
-    view.range_bins = 200;
+    const View view{radians(40.0), radians(20.0), 0.5, 8.0, 200, 20, 0.03};
     const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.004, 64.0});
     for (int j = 0; j < view.beams; ++j) {
         const int i = static_cast<int>((4.0 / std::cos(radians(-20.0 + 2.0 * (j + 0.5))) - 0.5) /
@@ -115,9 +91,7 @@ TEST_CASE("rays and points of the surface together add up to its area") {
     // 2 pi R^2 (1 - R / D), its solid angle 2 pi (1 - sqrt(1 - R^2 / D^2)).
     constexpr double R = 0.5;
     constexpr double D = 4.0;
-    Scene sphere = empty_scene();
-    add_sphere(sphere, {static_cast<float>(D), 0, 0}, static_cast<float>(R),
-               add_material(sphere, 0.5F), 200);
+    const Scene sphere = sphere_scene({D, 0, 0}, R, 0.5F, 200);
     for (const std::uint32_t start : {0U, 1U}) {
         CAPTURE(start);
         const SurfaceSums plate_sums = sums_over(plates, 64, start);
@@ -128,26 +102,6 @@ TEST_CASE("rays and points of the surface together add up to its area") {
               approx(1.0).epsilon(5e-3));
         CHECK(sphere_sums.solid_angle / (2.0 * pi * (1.0 - std::sqrt(1.0 - R * R / (D * D)))) ==
               approx(1.0).epsilon(5e-3));
-    }
-}
-
-TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from either start") {
-    // Beams are 0.3 m apart there: view rays alone would meet the rope in few of its bins.
-    for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        Scene scene = empty_scene();
-        const std::uint32_t material = add_material(scene, 0.7F);
-        for (int i = 0; i < 12; ++i) {
-            const PhiloxBlock draw = philox({static_cast<std::uint32_t>(i), 0, 0, 0}, {seed, 0});
-            add_pole(scene,
-                     {3.0F + 5.0F * unit_float(draw.x0), 3.0F * unit_float(draw.x1) - 1.5F, -0.5F},
-                     0.002F, 1.0F, material);
-        }
-        const View view{radians(60.0), radians(20.0), 0.5, 9.5, 100, 32, 0.03};
-        const Reference truth = cast_reference(Caster(scene), scene, view, Pose{},
-                                               {.noise = 0.0, .rays_max = 1'000'000});
-        CAPTURE_ALL(seed, truth.noise);
-        CHECK(truth.noise < 0.02);
-        CHECK(std::ranges::count(truth.scored, 1) > 12);
     }
 }
 
@@ -191,6 +145,24 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     CHECK(std::ranges::count(shares, SurfaceShare::no_copy, &SurfaceShare::copy) == 32);
     CHECK(shares.size() == 32 + 2 * shape.triangles.size());
     CHECK(shares.size() == surface_shares(copied, view, local).size());
+}
+
+TEST_CASE("the distance of a reference's halves is about its error") {
+    // More rays move the image by about as much as the halves of the smaller cast are apart.
+    for (const std::uint32_t number : {2U, 13U}) {
+        const Lattice lattice = draw_lattice(number);
+        const Caster caster(lattice.scene);
+        const View view = make_sonar(lattice.sonar, {}).settings.view;
+        const auto by = [&](std::uint64_t rays) {
+            return cast_reference(caster, lattice.scene, view, Pose{}, {0.0005, 16.0, rays});
+        };
+        const Reference few = by(200'000);
+        const Reference many = by(1'600'000);
+        CHECK(many.noise < few.noise);
+        const double moved = image_error(few.intensity, many.intensity, many.scored).relative_l1;
+        CHECK(moved < 1.5 * few.noise);
+        CHECK(moved > 0.5 * few.noise);
+    }
 }
 
 TEST_CASE("image errors by hand") {
