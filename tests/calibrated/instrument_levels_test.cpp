@@ -5,15 +5,10 @@
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/patches.h"
 
 namespace {
-
-/// Integral over [-1, 1] of a function of the sine.
-template <class Function>
-double over_sines(const Function& value) {
-    return integral(-1.0, 1.0, 4000, value);
-}
 
 SonarConfig imaging() {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 9e5);
@@ -28,25 +23,13 @@ InstrumentLevels levels_of(const SonarConfig& config, const WaterConfig& water =
     return calibrated_model_of(make_sonar(config, {}, water)).levels;
 }
 
-SonarConfig levels_sonar(SonarKind kind) {
-    SonarConfig config = calibrated(default_sonar(kind), 1e5);
-    config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 40.0;
-    config.elevation_deg = kind == SonarKind::sidescan ? 1.0 : 10.0;
-    set_range(config, 1.0, 5.0, 200);
-    config.azimuth_bins = 16;
-    return config;
-}
-
-std::vector<float> image_of(const Sonar& sonar, const std::vector<Sample>& samples, bool noise) {
+/// Random terms are speckle, then the receiver's noise.
+std::vector<float> image_of(const Sonar& sonar, const Sample& sample, std::size_t random_terms) {
     Samples all;
-    all.items = samples;
-    const std::size_t random_terms = noise ? 2 : 1;  // speckle, then the receiver's noise
+    all.items = {sample};
     return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, all,
                             {.random = random_terms});
 }
-
-constexpr std::array kinds{SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder,
-                           SonarKind::scanning};
 
 }  // namespace
 
@@ -71,11 +54,11 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
     for (const double side_lobe_db : {-13.3, -26.8, -42.0}) {
         CAPTURE(side_lobe_db);
         const LineArray line = line_array(radians(4.0), side_lobe_db);
-        const double line_integral =
-            2.0 * pi * over_sines([&](double u) { return std::pow(line_pattern(line, u), 2.0); });
-        CHECK(std::fabs(db_of_power(line_directivity(line) * line_integral / (4.0 * pi))) < 0.05);
+        const double line_integral = integral(
+            -1.0, 1.0, 4000, [&](double u) { return std::pow(line_pattern(line, u), 2.0); });
+        CHECK(std::fabs(db_of_power(line_directivity(line) * 0.5 * line_integral)) < 0.05);
         const LineArray across = line_array(radians(20.0), side_lobe_db);
-        const double rectangle_integral = over_sines([&](double u) {
+        const double rectangle_integral = integral(-1.0, 1.0, 4000, [&](double u) {
             // Over the angle whose sine is v.
             return std::pow(line_pattern(line, u), 2.0) * integral(-1.0, 1.0, 400, [&](double v) {
                        const double rest = 1.0 - u * u - v * v;
@@ -222,45 +205,49 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
 // At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. After the gain both
 // echoes are equally strong.
 TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
-    SonarConfig config = levels_sonar(SonarKind::imaging);
-    config.instrument.frequency_hz = 1e7;
+    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e7);
+    config.azimuth_deg = 40.0;
+    config.elevation_deg = 10.0;
+    config.azimuth_bins = 16;
+    set_range(config, 1.0, 5.0, 200);
     config.instrument.speckle.mode = SpeckleMode::none;
     const Sonar sonar = make_sonar(config, {});
-    CHECK(2.0 * 4.5 * calibrated_model_of(sonar).absorption_db_per_m > 190.0);  // 10 lg e^43.7
+    const double absorption = calibrated_model_of(sonar).absorption_db_per_m;
+    CHECK(2.0 * 4.5 * absorption > 190.0);  // 10 lg e^43.7
     // Nearer than 2 m the plate is cut into points of several columns of the grid.
-    const double near = total(image_of(sonar, {plate_ahead(2.0, 0.01)}, false));
-    const double far = total(image_of(sonar, {plate_ahead(4.5, 0.01)}, false));
+    const double near = total(image_of(sonar, plate_ahead(2.0, 0.01), 1));
+    const double far = total(image_of(sonar, plate_ahead(4.5, 0.01), 1));
     CHECK(near > 0.0);
     // The gain is that of a bin's middle. An echo at a bin's edge is off by 2 alpha dr / 2.
-    const double edge_db =
-        calibrated_model_of(sonar).absorption_db_per_m * sonar.settings.view.bin_m();
-    CHECK(std::fabs(db_of_power(far / near)) < edge_db);
+    CHECK(std::fabs(db_of_power(far / near)) < absorption * sonar.settings.view.bin_m());
 }
 
 TEST_CASE("levels: no legal level or range makes a value that is not finite") {
-    std::mt19937 draw(25);
+    constexpr std::array kinds{SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder,
+                               SonarKind::scanning};
+    Uniform draw(25);
+    // Half of the numbers are at an end.
     const auto number = [&](double low, double high) {
-        const auto which = draw() % 4;
-        const double share = std::uniform_real_distribution<>(0.0, 1.0)(draw);
-        return which == 0 ? low : which == 1 ? high : low + share * (high - low);
+        const double middle = 0.5 * (low + high);
+        return std::clamp(middle + draw.between(low - high, high - low), low, high);
     };
     for (int trial = 0; trial < 100; ++trial) {
-        SonarConfig config = levels_sonar(kinds[draw() % kinds.size()]);
-        InstrumentConfig& instrument = config.instrument;
+        SonarConfig config =
+            calibrated(default_sonar(kinds[trial % 4]), std::pow(10.0, number(3, 7)));
+        config.azimuth_bins = 16;
         set_range(config, 0.0, std::pow(10.0, number(-3.0, 9.0)), 32);
-        instrument.frequency_hz = std::pow(10.0, number(3.0, 7.0));
+        InstrumentConfig& instrument = config.instrument;
         instrument.source_level_db = number(-300.0, 300.0);
         instrument.receiver.noise_db = number(-300.0, 300.0);
         instrument.receiver.full_scale_db = number(-300.0, 300.0);
         instrument.receiver.tvg_log = number(0.0, 60.0);
         instrument.receiver.tvg_from_m = number(0.0, 1.0) < 0.5 ? 0.0 : 1e9;
-        instrument.speckle.mode = static_cast<SpeckleMode>(draw() % 3);
-        const double range = number(0.001, 1.0) * config.range_max_m;
-        const Sonar sonar = make_sonar(config, {});
-        for (const bool noise : {false, true}) {
-            CAPTURE(trial);
+        instrument.speckle.mode = static_cast<SpeckleMode>(trial % 3);
+        const Sample plate = plate_ahead(number(0.001, 1.0) * config.range_max_m, 0.01);
+        for (const std::size_t random_terms : {1U, 2U}) {
+            CAPTURE_ALL(trial, random_terms);
             CHECK(std::ranges::all_of(
-                image_of(sonar, {plate_ahead(range, 0.01)}, noise),
+                image_of(make_sonar(config, {}), plate, random_terms),
                 [](float value) { return value >= 0.0F && value <= max_value; }));
         }
     }
