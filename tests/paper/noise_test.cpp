@@ -108,25 +108,6 @@ TEST_CASE("cells have names of their own") {
     CHECK(names.size() == 125);
 }
 
-TEST_CASE("neighbouring cells and successive pings are uncorrelated") {
-    constexpr int n = 100000;
-    std::vector<double> now, next;
-    Echoes a = row_of_cells(n);
-    Echoes b = row_of_cells(n);
-    add_range_noise(a, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 3, Stream::range_noise));
-    add_range_noise(b, {.lambda_m = 1.0F, .fades = true}, stream_key(1, 2, 4, Stream::range_noise));
-    double neighbours = 0.0;
-    double pings = 0.0;
-    for (int k = 0; k + 1 < n; ++k) {
-        // Centred uniforms have variance 1/12; a correlation of independent ones has a standard
-        // deviation of 1 / sqrt(n).
-        neighbours += 12.0 * (a.intensity[k] - 0.5) * (a.intensity[k + 1] - 0.5) / n;
-        pings += 12.0 * (a.intensity[k] - 0.5) * (b.intensity[k] - 0.5) / n;
-    }
-    CHECK(std::fabs(neighbours) < 4.5 / std::sqrt(n));
-    CHECK(std::fabs(pings) < 4.5 / std::sqrt(n));
-}
-
 TEST_CASE("each quarter of a block of pixels follows the laws by itself") {
     // Pixels share counters of Philox: normal draws in fours, 32 pixels apart, Rayleigh draws in
     // twos, 64 apart.
