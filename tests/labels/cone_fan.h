@@ -32,11 +32,4 @@ inline int beam_at(const Sonar& sonar, double sine) {
                : static_cast<int>(above - edges.begin()) - 1;
 }
 
-/// A thing with its middle in some direction of the sensor, and a sonar that is pitched.
-struct Thing {
-    Scene scene = empty_scene();
-    Pose pose;
-    Eigen::Vector3d middle;  ///< sensor frame
-};
-
 }  // namespace sonarsim::test

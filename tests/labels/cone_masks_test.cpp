@@ -17,6 +17,12 @@ double overlap(const Box& a, const Box& b) {
     return both / (area(a) + area(b) - both);
 }
 
+/// A thing, and a pitched sonar in whose view it is.
+struct Thing {
+    Scene scene = empty_scene();
+    Pose pose;
+};
+
 Thing draw_thing(Uniform& draw) {
     Thing out;
     const double tilt = radians(draw.between(0.0, 40.0));
@@ -24,8 +30,8 @@ Thing draw_thing(Uniform& draw) {
     const double azimuth = radians(draw.between(-40.0, 40.0));
     const double range = draw.between(3.0, 7.0);
     out.pose = pitched(degrees(tilt));
-    out.middle = range * direction_of(azimuth, elevation);
-    const Eigen::Vector3f at = (out.pose.rotation * out.middle).cast<float>();
+    const Eigen::Vector3f at =
+        (out.pose.rotation * (range * direction_of(azimuth, elevation))).cast<float>();
     const std::uint32_t m = add_material(out.scene, 0.4F);
     out.scene.materials[m].slope_rms_deg = 0.0F;  // Lambert's law alone
     if (draw.between(0.0, 1.0) < 0.5) {

@@ -34,18 +34,15 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
     const Sonar sonar = wide_fan(spacings[0]);
     for (int n = 0; n < (sanitized ? 3 : 20); ++n) {
         CAPTURE(n);
-        Thing thing;
-        thing.middle = draw.between(3.0, 6.0) * direction_of(radians(draw.between(-35.0, 35.0)),
-                                                             radians(draw.between(-30.0, 30.0)));
-        const std::uint32_t m = add_material(thing.scene, 0.4F);
-        thing.scene.materials[m].slope_rms_deg = 5.0;
-        add_sphere(thing.scene, thing.middle.cast<float>(),
-                   static_cast<float>(draw.between(0.15, 0.4)), m, 48);
+        const Eigen::Vector3d middle =
+            draw.between(3.0, 6.0) *
+            direction_of(radians(draw.between(-35.0, 35.0)), radians(draw.between(-30.0, 30.0)));
+        Scene scene = sphere_scene(middle.cast<float>(), draw.single(0.15, 0.4), 0.4F, 48);
+        scene.materials[0].slope_rms_deg = 5.0;
         Sonar with_targets = sonar;
-        find_targets({&with_targets, 1}, thing.scene);
+        find_targets({&with_targets, 1}, scene);
         const auto labels_of = [&](const Sonar& by) {
-            const Labelled found =
-                label(thing.scene, by, thing.pose, EngineKind::strips, {.objects = true});
+            const Labelled found = label(scene, by, {}, EngineKind::strips, {.objects = true});
             const bool has_pieces = std::ranges::count(found.traced.samples.items,
                                                        SampleKind::target, &Sample::kind) > 0;
             CHECK(has_pieces == (&by == &with_targets));
