@@ -8,11 +8,6 @@ namespace {
 
 constexpr std::size_t in_flight = 6;
 
-// Four worker threads, even on a machine with one core.
-struct FourThreads {
-    tbb::global_control limit{tbb::global_control::max_allowed_parallelism, 4};
-};
-
 /// Work whose duration decreases with i, so that results complete out of order.
 std::string work_on(std::size_t i) {
     std::atomic<unsigned> spin = 0;
@@ -24,7 +19,7 @@ std::string work_on(std::size_t i) {
 }  // namespace
 
 TEST_CASE("an ordered pipeline hands over each result once, in order, few at a time") {
-    const FourThreads four;
+    const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
     constexpr std::size_t count = 1000;
     for (const std::size_t stop_after : {count, std::size_t{20}}) {
         std::atomic<bool> stop = false;
@@ -58,7 +53,7 @@ TEST_CASE("an ordered pipeline hands over each result once, in order, few at a t
 }
 
 TEST_CASE("what work throws ends the pipeline") {
-    const FourThreads four;
+    const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
     const auto work = [](std::size_t i) {
         if (i == 30) throw std::runtime_error("thirty");
         return work_on(i);

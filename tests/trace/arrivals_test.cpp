@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "support/test.h"
+#include "support/draws.h"
 
 namespace {
 
@@ -10,26 +10,18 @@ bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-/// Points from a micrometre to a thousand kilometres off, in all directions and on the axes.
-template <class Visit>
-void for_each_point(Visit visit) {
-    std::mt19937 random(20);
-    std::uniform_real_distribution<float> side(-1.0F, 1.0F);
-    std::uniform_real_distribution<float> exponent(-6.0F, 6.0F);
-    for (int k = 0; k < 100'000; ++k) {
-        Eigen::Vector3f point(side(random), side(random), side(random));
-        if (k % 7 == 0) point[k % 3] = 0.0F;
-        if (k % 11 == 0) point = Eigen::Vector3f::Unit(k % 3);
-        visit(Eigen::Vector3f(point * std::pow(10.0F, exponent(random))));
-    }
-}
-
 }  // namespace
 
 // A piece's range is off by a relative error of 2^-24 each of a product, two fused sums and a root,
 // of which the first three are halved by the root: 2.5 in all. In double `exact` is off as well.
 TEST_CASE("arrivals: in still water they are the geometry, and those of pieces within rounding") {
-    for_each_point([](const Eigen::Vector3f& point) {
+    // Points from a micrometre to a thousand kilometres off, in all directions and on the axes.
+    Draws draws(20);
+    for (int k = 0; k < 100'000; ++k) {
+        Eigen::Vector3f point = draws.in_ball();
+        if (k % 7 == 0) point[k % 3] = 0.0F;
+        if (k % 11 == 0) point = Eigen::Vector3f::Unit(k % 3);
+        point *= draws.scale(1e-6F, 1e6F);
         const float range = point.norm();
         const Arrival arrival = arrival_of(point);
         REQUIRE(same_bits(arrival.range_m, range));
@@ -52,5 +44,5 @@ TEST_CASE("arrivals: in still water they are the geometry, and those of pieces w
         for (const float one : lanes)
             REQUIRE(same_bits(one, piece));
         REQUIRE(std::fabs(piece_range(p.x(), p.y(), p.z()) - exact) <= 5.0 * 0x1p-53 * exact);
-    });
+    }
 }

@@ -1,5 +1,7 @@
 #include "simulate/trace/counters.h"
 
+#include <fmt/format.h>
+
 #include "support/test.h"
 
 namespace {
@@ -23,13 +25,8 @@ void check_complete(const std::array<Statistic<Struct, Number>, n>& table, std::
 template <class Struct, class Number, std::size_t n>
 std::string rows_of(const std::array<Statistic<Struct, Number>, n>& table) {
     std::string rows;
-    for (const auto& statistic : table) {
-        rows += "| `";
-        rows += statistic.name;
-        rows += "` | ";
-        rows += statistic.text;
-        rows += " |\n";
-    }
+    for (const auto& statistic : table)
+        rows += fmt::format("| `{}` | {} |\n", statistic.name, statistic.text);
     return rows;
 }
 
