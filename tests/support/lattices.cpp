@@ -16,33 +16,16 @@ class LatticeBuilder {
         scene.instances.emplace_back("lattice");
     }
 
-    /// A prism from a to b. Welded bars that meet in a node share its vertex.
     void bar(const Vector3f& a, const Vector3f& b, float radius, int sides) {
-        const Vector3f along = b - a;
-        const Vector3f u = along.unitOrthogonal() * radius;
-        const Vector3f v = along.normalized().cross(u);
-        const auto rim = [&](const Vector3f& centre, int k) -> Vector3f {
-            const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
-            return centre + static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v;
-        };
-        for (int k = 0; k < sides; ++k) {
-            quad(rim(a, k), rim(a, k + 1), rim(b, k + 1), rim(b, k));
-            if (!welded_) continue;
-            triangle(a, rim(a, k), rim(a, k + 1));
-            triangle(b, rim(b, k), rim(b, k + 1));
-        }
+        add_bar(scene_, a, b, radius, sides, welded_, material_);
     }
 
     void quad(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
-        triangle(a, b, c);
-        triangle(a, c, d);
+        add_triangle(scene_, a, b, c, material_);
+        add_triangle(scene_, a, c, d, material_);
     }
 
   private:
-    void triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-        add_triangle(scene_, a, b, c, material_);
-    }
-
     Scene& scene_;
     bool welded_;
     std::uint32_t material_ = 0;

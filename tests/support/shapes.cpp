@@ -117,6 +117,24 @@ void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float hei
     }
 }
 
+void add_bar(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius,
+             int sides, bool closed, std::uint32_t material) {
+    const Eigen::Vector3f along = b - a;
+    const Eigen::Vector3f u = along.unitOrthogonal() * radius;
+    const Eigen::Vector3f v = along.normalized().cross(u);
+    const auto rim = [&](const Eigen::Vector3f& centre, int k) -> Eigen::Vector3f {
+        const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
+        return centre + static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v;
+    };
+    for (int k = 0; k < sides; ++k) {
+        add_triangle(scene, rim(a, k), rim(a, k + 1), rim(b, k + 1), material);
+        add_triangle(scene, rim(a, k), rim(b, k + 1), rim(b, k), material);
+        if (!closed) continue;
+        add_triangle(scene, a, rim(a, k), rim(a, k + 1), material);
+        add_triangle(scene, b, rim(b, k), rim(b, k + 1), material);
+    }
+}
+
 Scene sphere_scene(const Eigen::Vector3f& centre, float radius, float reflection, int n) {
     Scene scene = empty_scene();
     add_sphere(scene, centre, radius, add_material(scene, reflection), n);

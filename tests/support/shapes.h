@@ -49,6 +49,11 @@ void add_sphere(Scene& scene, const Eigen::Vector3f& centre, float radius, std::
 void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float height,
               std::uint32_t material, int n = 64);
 
+/// A prism from a to b, as a part of the last instance; closed by fans about a and b, so that the
+/// bars that meet in a node share its vertex.
+void add_bar(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius,
+             int sides, bool closed, std::uint32_t material);
+
 /// Scenes of such a sphere or box alone, of one material.
 Scene sphere_scene(const Eigen::Vector3f& centre, float radius, float reflection, int n = 256);
 Scene box_scene(const Eigen::Vector3f& min, const Eigen::Vector3f& max, float reflection);

@@ -1,29 +1,6 @@
 #include "support/draws.h"
 #include "visibility/strips/fixtures.h"
 
-namespace {
-
-/// A closed prism of six sides and a radius of 2 cm, with fans at both ends.
-void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
-               std::uint32_t material) {
-    const Eigen::Vector3f along = (b - a).normalized();
-    const Eigen::Vector3f up = 0.02F * along.unitOrthogonal();
-    const Eigen::Vector3f side = along.cross(up);
-    const auto rim = [&](int k) -> Eigen::Vector3f {
-        const SinCos at = sincos(2.0 * pi * (k % 6) / 6.0);
-        return static_cast<float>(at.cos) * up + static_cast<float>(at.sin) * side;
-    };
-    for (int k = 0; k < 6; ++k) {
-        const Eigen::Vector3f p = rim(k);
-        const Eigen::Vector3f q = rim(k + 1);
-        add_quad(scene, a + p, a + q, b + q, b + p, material);
-        add_quad(scene, a, a, a + p, a + q, material);
-        add_quad(scene, b, b, b + p, b + q, material);
-    }
-}
-
-}  // namespace
-
 TEST_CASE("strips: two materials that meet along an azimuth share the beam as they lie") {
     // A level floor of one material left of an azimuth and of another one right of it: at each
     // range the left part has the share of the beam left of that azimuth.
@@ -124,8 +101,9 @@ TEST_CASE("strips: a cable ends in range where its corners do") {
         const float length = draws.between(0.5F, 2.0F);
         const Eigen::Vector3f end =
             node + Eigen::Vector3f(length, draws.between(-0.5F, 0.5F), 0.3F);
-        add_cable(scene, node, end, material);
-        add_cable(scene, node, {5.0F, -y, -3.0F}, material);
+        scene.instances.emplace_back("cables");
+        for (const Eigen::Vector3f& to : {end, Eigen::Vector3f(5.0F, -y, -3.0F)})
+            add_bar(scene, node, to, 0.02F, 6, true, material);
         float farthest = 0.0F;
         for (const Eigen::Vector3f& p : scene.vertices)
             farthest = std::max(farthest, p.norm());
