@@ -31,18 +31,6 @@ double aperture_width(const LineArray& array) {
     return half_power_width(pattern) * step / array.wavelengths;
 }
 
-/// The sonar of a preset with short pings and steps of half a degree over 24 degrees.
-Sonar scanning(const std::string& preset) {
-    return preset_sonar(
-        preset,
-        "    range_min_m: 1\n"
-        "    range_max_m: 8\n"
-        "    range_bins: 140\n"
-        "    sector_deg: 24\n"
-        "    step_deg: 0.5\n"
-        "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
-}
-
 }  // namespace
 
 TEST_CASE("resolution cell of three presets: a point is as wide as beam and pulse are") {
@@ -86,7 +74,12 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
 
 TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") {
     for (const char* const preset : {"micron", "ping360"}) {
-        const Sonar sonar = scanning(preset);
+        // Short pings, and steps of half a degree over 24 degrees.
+        const Sonar sonar = preset_sonar(
+            preset,
+            "    range_min_m: 1\n    range_max_m: 8\n    range_bins: 140\n"
+            "    sector_deg: 24\n    step_deg: 0.5\n"
+            "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
         const LineArray head = array_of(sonar);
         const double width = radians(sonar.config.instrument.beam.width_deg);
         const double half_view = 0.5 * sonar.settings.view.azimuth_rad;

@@ -112,30 +112,23 @@ TEST_CASE("each quarter of a block of pixels follows the laws by itself") {
     // Pixels share counters of Philox: normal draws in fours, 32 pixels apart, Rayleigh draws in
     // twos, 64 apart.
     constexpr int blocks = 800;
-    const std::vector<float> normal = noisy(1.0F, blocks, 128, 0.0F, 0.1F, 1);
-    const std::vector<float> rayleigh = noisy(0.0F, blocks, 128, 0.2F, 0.0F, 1);
-    const auto quarter_of = [](const std::vector<float>& image, int quarter) {
-        std::vector<double> draws;
-        for (int k = 0; k < blocks * 32; ++k)
-            draws.push_back(image[k / 32 * 128 + quarter * 32 + k % 32]);
-        return draws;
+    struct Law {
+        std::vector<float> image;
+        std::function<double(double)> cdf;
     };
-    std::vector<std::vector<double>> normals, rayleighs;
-    for (int quarter = 0; quarter < 4; ++quarter) {
-        normals.push_back(quarter_of(normal, quarter));
-        rayleighs.push_back(quarter_of(rayleigh, quarter));
-        CHECK(ks_p_value(normals.back(), [](double x) {
-                  return 0.5 * std::erfc((0.5 - x) / 0.1 / std::sqrt(2.0));
-              }) > sidak(tests));
-        CHECK(ks_p_value(rayleighs.back(), [](double x) {
-                  return 1.0 - std::exp(-0.5 * x * x / 0.04);
-              }) > sidak(tests));
-    }
-    for (int a = 0; a < 4; ++a) {
-        for (int b = 0; b < a; ++b) {
-            CHECK(std::fabs(correlation(normals[a], normals[b])) < 4.5 / std::sqrt(blocks * 32.0));
-            CHECK(std::fabs(correlation(rayleighs[a], rayleighs[b])) <
-                  4.5 / std::sqrt(blocks * 32.0));
+    const Law normal{noisy(1.0F, blocks, 128, 0.0F, 0.1F, 1),
+                     [](double x) { return 0.5 * std::erfc((0.5 - x) / 0.1 / std::sqrt(2.0)); }};
+    const Law rayleigh{noisy(0.0F, blocks, 128, 0.2F, 0.0F, 1),
+                       [](double x) { return 1.0 - std::exp(-0.5 * x * x / 0.04); }};
+    for (const Law& law : {normal, rayleigh}) {
+        std::array<std::vector<double>, 4> quarters;
+        for (std::size_t k = 0; k < law.image.size(); ++k)
+            quarters[k % 128 / 32].push_back(law.image[k]);
+        for (int a = 0; a < 4; ++a) {
+            CHECK(ks_p_value(quarters[a], law.cdf) > sidak(tests));
+            for (int b = 0; b < a; ++b)
+                CHECK(std::fabs(correlation(quarters[a], quarters[b])) <
+                      4.5 / std::sqrt(blocks * 32.0));
         }
     }
 }

@@ -15,13 +15,6 @@ struct Expected {
     double intensity;
 };
 
-/// From the mirror image s of the sonar, the second point p and the direction q that leaves it.
-Expected expected(const Eigen::Vector3d& s, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                  double reflections) {
-    return {0.5 * ((p - s).norm() + p.norm()), std::atan2(p.y(), p.x()),
-            -reflections * q.normalized().dot(p.normalized())};
-}
-
 double beam_of_azimuth(const View& view, double azimuth) {
     return (azimuth / view.azimuth_rad + 0.5) * view.beams;
 }
@@ -71,11 +64,13 @@ TEST_CASE("multipath between two perpendicular walls") {
         const double t = is_on_port(at) ? b / at.x() : a / at.y();
         return image_source(at) + t * (at - image_source(at));
     };
-    const auto geometry = [&](const Eigen::Vector3d& at) {
+    const auto geometry = [&](const Eigen::Vector3d& at) -> Expected {
         const Eigen::Vector3d out = at - image_source(at);
         const double turn = is_on_port(at) ? -1.0 : 1.0;
-        return expected(image_source(at), second_point(at),
-                        {turn * out.x(), -turn * out.y(), out.z()}, 0.5 * 0.8);
+        const Eigen::Vector3d p = second_point(at);
+        const Eigen::Vector3d q(turn * out.x(), -turn * out.y(), out.z());  // from p on
+        return {0.5 * ((p - image_source(at)).norm() + p.norm()), std::atan2(p.y(), p.x()),
+                -0.5 * 0.8 * q.normalized().dot(p.normalized())};
     };
     for (const int epsilon : {0, 5}) {
         const Found found = find(scene, view, clusters_of(epsilon));
