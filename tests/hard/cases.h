@@ -83,8 +83,6 @@ std::vector<float> floor_law(const HardContext& context);
 /// The brute-force reference after settling to 0.2 % or after two million rays.
 std::vector<float> settled_reference(const HardContext& context);
 
-std::vector<float> dark(const HardContext& context);
-
 /// The image of any scene with an engine and an echo model, to compare others with; without the
 /// random terms of the calibrated model.
 std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine,

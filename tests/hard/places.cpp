@@ -4,6 +4,10 @@ namespace sonarsim {
 
 namespace {
 
+std::vector<float> dark(const HardContext& context) {
+    return std::vector<float>(context.ping.intensity.size(), 0.0F);
+}
+
 /// Surface behind the sonar, or nearer than the least range: walls 5 cm away all round.
 std::vector<HardCase> dark_places() {
     return {

@@ -87,10 +87,6 @@ std::vector<float> settled_reference(const HardContext& context) {
         .intensity;
 }
 
-std::vector<float> dark(const HardContext& context) {
-    return std::vector<float>(context.ping.intensity.size(), 0.0F);
-}
-
 std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKind engine_kind,
                             ModelKind model) {
     const std::unique_ptr<VisibilityEngine> engine =

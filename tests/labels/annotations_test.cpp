@@ -31,10 +31,6 @@ struct FoundObjects {
         REQUIRE(found != visible.end());
         return *found;
     }
-    /// The range at which the last bin of an object's shadow ends.
-    double shadow_end_m(std::uint32_t id) const {
-        return sonar.range_edges_m[object(id).shadow.last_bin + 1];
-    }
 };
 
 /// Looks down at a floor at z = 0 from a height.
@@ -81,7 +77,7 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
         const ObjectInPing& wall = found.object(2);
         const double end_m = std::hypot(r * sonar_m / (sonar_m - h), sonar_m);
         const double bin_m = found.sonar.settings.view.bin_m();
-        CHECK(std::fabs(found.shadow_end_m(2) - end_m) < 2.5 * bin_m);
+        CHECK(std::fabs(found.sonar.range_edges_m[wall.shadow.last_bin + 1] - end_m) < 2.5 * bin_m);
         CHECK(wall.shadow.first_bin >= wall.range_first);
         // Exact coverage by triangles finds the same bins, which have no other owner.
         const auto exact = static_cast<double>(std::ranges::count(found.labels.shadow, 2));

@@ -3,25 +3,6 @@
 #include "support/bounces.h"
 #include "support/labelled.h"
 
-namespace {
-
-/// The echo of each object in each bin, [beams, range bins, objects], by rays alone: a ray at angle
-/// `theta` has an echo of reflection times r^2 cos(theta). Each falls into one bin.
-std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objects,
-                                   const Sonar& sonar, const Pose& pose) {
-    const View& view = sonar.settings.view;
-    const std::size_t count = objects.objects.size();
-    std::vector<double> echoes(static_cast<std::size_t>(view.beams) * view.range_bins * count);
-    follow_rays(scene, sonar, pose, {12, 2000}, 1,
-                [&](std::size_t bin, double theta, int, double r, const Intersection& met) {
-                    echoes[bin * count + objects.object_of(met.instance)] +=
-                        scene.materials[met.material].reflection * r * r * std::cos(theta);
-                });
-    return echoes;
-}
-
-}  // namespace
-
 TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     // The panel covers the azimuths up to atan(0.5 / 3) at 3 m; the wall stands at 6 m, |y| < 2.
     Scene scene = rectangle_scene({6, -2, -5}, {6, 2, 5}, 0.5F);
@@ -141,8 +122,16 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
     const Sonar sonar = noise_free(config, 0.01);
     const SceneObjects objects = group_objects(scene, {});
     const std::size_t count = objects.objects.size();
+    const View& view = sonar.settings.view;
     for (const Pose& pose : tank_poses()) {
-        const std::vector<double> echoes = echoes_by_rays(scene, objects, sonar, pose);
+        // The echo of each object in each bin, [beams, range bins, objects], by rays alone: a ray
+        // at `theta` has one of reflection times r^2 cos(theta). Each falls into one bin.
+        std::vector<double> echoes(static_cast<std::size_t>(view.beams) * view.range_bins * count);
+        follow_rays(scene, sonar, pose, {12, 2000}, 1,
+                    [&](std::size_t bin, double theta, int, double r, const Intersection& met) {
+                        echoes[bin * count + objects.object_of(met.instance)] +=
+                            scene.materials[met.material].reflection * r * r * std::cos(theta);
+                    });
         for (const EngineKind type : engine_types) {
             CAPTURE(static_cast<int>(type));
             const Labelled out = label(scene, sonar, pose, type);
@@ -159,8 +148,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
                 // Another object is named only where both are there, or at the edge of a bin, where
                 // a footprint reaches over: then a neighbour has it.
                 bool near = echo[stated] > 0.0;
-                for (const int step :
-                     {-1, 1, -sonar.settings.view.range_bins, sonar.settings.view.range_bins}) {
+                for (const int step : {-1, 1, -view.range_bins, view.range_bins}) {
                     const std::ptrdiff_t next = static_cast<std::ptrdiff_t>(bin) + step;
                     if (next < 0 || next >= static_cast<std::ptrdiff_t>(out.labels.size()))
                         continue;

@@ -7,18 +7,6 @@
 
 namespace {
 
-/// The bins that hold surface behind other surface, [beams, range bins], by rays alone.
-std::vector<bool> hidden_by_rays(const Scene& scene, const Sonar& sonar, const Pose& pose,
-                                 const RayGrid& grid) {
-    const View& view = sonar.settings.view;
-    std::vector<bool> hidden(static_cast<std::size_t>(view.beams) * view.range_bins);
-    follow_rays(scene, sonar, pose, grid, 16,
-                [&](std::size_t bin, double, int layer, double, const Intersection&) {
-                    if (layer > 0) hidden[bin] = true;
-                });
-    return hidden;
-}
-
 /// A floor of ripples whose heights are drawn, with rocks.
 Scene rippled_floor(Uniform& draw) {
     Scene scene = empty_scene();
@@ -95,8 +83,12 @@ TEST_CASE("labels: the shadows of a sea floor are those that rays through all su
                            : Pose{rotation_from_rpy(draw.between(-0.1, 0.1), draw.between(0.1, 0.4),
                                                     draw.between(-0.4, 0.4)),
                                   {-1.0, draw.between(-2, 2), draw.between(0.8, 1.8)}};
-            const std::vector<bool> hidden = hidden_by_rays(scene, sonar, pose, c.grid);
             const Labelled out = label(scene, sonar, pose, EngineKind::strips);
+            std::vector<bool> hidden(out.labels.size());  // holds surface behind other surface
+            follow_rays(scene, sonar, pose, c.grid, 16,
+                        [&](std::size_t bin, double, int layer, double, const Intersection&) {
+                            if (layer > 0) hidden[bin] = true;
+                        });
             for (std::size_t k = 0; k < hidden.size(); ++k) {
                 const bool is = out.labels.shadow[k] > 0;
                 const bool should = hidden[k] && out.labels.object[k] == 0;

@@ -38,10 +38,7 @@ struct Arc {
 };
 
 /// A fan of 60 x 30 degrees that looks ahead and 25 degrees down, at z = 0.
-View bent_view() {
-    return {radians(60.0), radians(30.0), 1.0, 300.0, 1500, 60, 0.02};
-}
-
+const View bent_view{radians(60.0), radians(30.0), 1.0, 300.0, 1500, 60, 0.02};
 const Pose bent_pose = pitched(25.0);
 
 }  // namespace
@@ -49,8 +46,8 @@ const Pose bent_pose = pitched(25.0);
 TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradient") {
     // The apparent range is 1480 m/s times the time; the true incidence has the cosine -sin b.
     const Scene scene = floor_under(bent_gradient);
-    const View view = bent_view();
-    const Samples samples = engine_of(scene, EngineKind::rays)->visible_surface(view, bent_pose);
+    const Samples samples =
+        engine_of(scene, EngineKind::rays)->visible_surface(bent_view, bent_pose);
     REQUIRE(samples.items.size() > 1000);
     for (const Sample& sample : samples.items) {
         const Eigen::Vector3d p = sample.position.cast<double>();
@@ -71,12 +68,13 @@ TEST_CASE("bent rays: range, angle and area of a flat bottom in a constant gradi
     constexpr int n = 400;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
-            const double azimuth = ((i + 0.5) / n - 0.5) * view.azimuth_rad;
-            const double elevation = ((j + 0.5) / n - 0.5) * view.elevation_rad;
+            const double azimuth = ((i + 0.5) / n - 0.5) * bent_view.azimuth_rad;
+            const double elevation = ((j + 0.5) / n - 0.5) * bent_view.elevation_rad;
             const Eigen::Vector3d d = bent_pose.rotation * direction_of(azimuth, elevation);
             const Arc arc(std::asin(d.z()));
             true_area += arc.distance_m() * std::fabs(arc.slope()) / std::cos(arc.a) *
-                         std::cos(elevation) * view.azimuth_rad * view.elevation_rad / (n * n);
+                         std::cos(elevation) * bent_view.azimuth_rad * bent_view.elevation_rad /
+                         (n * n);
         }
     }
     CHECK(area_of(samples) == approx(true_area).epsilon(0.01));
@@ -88,7 +86,7 @@ TEST_CASE("bent rays: without a gradient they are straight, and ranges are times
     Scene still = scene;
     still.sound_profile = nullptr;
     const auto straight = engine_of(still, EngineKind::rays);
-    View view = bent_view();
+    View view = bent_view;
     const Samples with = bent->visible_surface(view, bent_pose);
     view.range_max_m *= 1500.0 / 1480.0;
     const Samples without = straight->visible_surface(view, bent_pose);
@@ -110,7 +108,7 @@ TEST_CASE("bent rays: sound that bends down sees what a sill hides from a line")
         add_rectangle(scene, {50.0F, -5.0F, -60.0F}, {50.0F, 5.0F, -19.9F},
                       add_material(scene, 0.5F));
         const auto engine = engine_of(scene, EngineKind::rays);
-        const Samples samples = engine->visible_surface(bent_view(), bent_pose);
+        const Samples samples = engine->visible_surface(bent_view, bent_pose);
         bool is_visible = false;
         for (const Sample& sample : samples.items) {
             const Eigen::Vector3d place =

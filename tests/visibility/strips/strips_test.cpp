@@ -134,7 +134,7 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     CHECK(filled_sr(samples) == approx(solid).epsilon(2e-3));
 }
 
-TEST_CASE("strips: where faces coincide the first of the file is seen, as by rays") {
+TEST_CASE("strips: where faces coincide the first of the file is seen") {
     // A plate in a floor: the plate before the floor is seen, and behind it hidden.
     for (const bool plate_first : {true, false}) {
         Scene scene = empty_scene();
@@ -146,17 +146,10 @@ TEST_CASE("strips: where faces coincide the first of the file is seen, as by ray
         if (plate_first) add(5, 7, 1, steel);
         add(1, 40, 30, sand);
         if (!plate_first) add(5, 7, 1, steel);
-        const auto steel_m2 = [&](const Samples& samples) {
-            double area = 0.0;
-            for (const Sample& sample : samples.items)
-                area += sample.material == steel ? static_cast<double>(sample.area_m2) : 0.0;
-            return area;
-        };
-        const Pose pose = pitched(15.0);
-        const double by_strips = steel_m2(visible(scene, fan_view(), pose));
-        const double by_rays = steel_m2(make_rays_engine(scene)->visible_surface(fan_view(), pose));
-        CHECK(by_strips == approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
-        CHECK(by_rays == approx(plate_first ? 4.0 : 0.0).epsilon(0.03));
+        double steel_m2 = 0.0;
+        for (const Sample& sample : visible(scene, fan_view(), pitched(15.0)).items)
+            steel_m2 += sample.material == steel ? static_cast<double>(sample.area_m2) : 0.0;
+        CHECK(steel_m2 == approx(plate_first ? 4.0 : 0.0).epsilon(1e-3));
     }
 }
 
