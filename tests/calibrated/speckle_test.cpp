@@ -82,22 +82,18 @@ struct Patch {
     }
 };
 
-// Three presets: an aperture with errors of phase whose beams are even in sine, a wide one whose
-// beams are half a width apart, a narrow one whose beams are a width apart.
-std::vector<Patch> patches_of_presets() {
-    std::vector<Patch> out;
-    out.emplace_back("oculus_m1200d_2100khz", 1.2, 0.0025, 85);
-    out.emplace_back("gemini_720is", 3.0, 0.008, 43);
-    // Its bins hold the larger of two samples, which are not Rayleigh distributed.
-    out.emplace_back("didson_1800khz", 5.0, 0.02, 66,
-                     "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
-    return out;
-}
+/// Bins of the DIDSON hold the larger of two samples, which are not Rayleigh distributed.
+constexpr const char* one_sample = "    instrument: {usual_water: none, receiver: {samples: 1}}\n";
 
 }  // namespace
 
 TEST_CASE("speckle of three presets: Rayleigh, correlated as beam and pulse have it") {
-    for (const Patch& patch : patches_of_presets()) {
+    // An aperture with errors of phase whose beams are even in sine, a wide one whose beams are
+    // half a width apart, a narrow one whose beams are a width apart.
+    const Patch presets[] = {{"oculus_m1200d_2100khz", 1.2, 0.0025, 85},
+                             {"gemini_720is", 3.0, 0.008, 43},
+                             {"didson_1800khz", 5.0, 0.02, 66, one_sample}};
+    for (const Patch& patch : presets) {
         CAPTURE(patch.sonar.config.instrument.frequency_hz);
         const LineArray array = array_of(patch.sonar);
         const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
@@ -138,8 +134,7 @@ TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the
     // 2 (x cos a + y sin a): within a beam as if the aperture were moved by 2 (y - x tan a).
     // The scatterer is seen under another angle, by (y cos a - x sin a) / r less, and aside by
     // a yaw; and its echo comes earlier.
-    const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                      "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
+    const Patch patch("didson_1800khz", 5.0, 0.02, 66, one_sample);
     const LineArray array = array_of(patch.sonar);
     const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
     constexpr int outer = 10;
