@@ -9,13 +9,6 @@ namespace {
 
 constexpr PhiloxKey noise_key{11, 12};
 
-/// The correlation of noise `lag` bins apart behind a matched filter: the amplitude of the pulse,
-/// whose spectrum is the power spectrum of the noise.
-double pulse_amplitude(double resolution_bins, double side_lobe_db, int lag) {
-    constexpr double unit = 1e-3;
-    return line_pattern(line_array(unit, side_lobe_db), lag / resolution_bins * unit);
-}
-
 /// The correlation that taps give white noise.
 double tap_correlation(const std::vector<float>& taps, std::size_t lag) {
     double sum = 0.0;
@@ -67,17 +60,21 @@ struct NoiseOfPings {
 
 }  // namespace
 
+// Behind a matched filter it is the amplitude of the pulse, whose spectrum is the power spectrum of
+// the noise.
 TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
+    constexpr double unit = 1e-3;  // a width in sines that stands for that of the pulse
     for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
         for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
             CAPTURE_ALL(bins, side_lobe_db);
+            const LineArray pulse = line_array(unit, side_lobe_db);
             const std::vector<float> taps = noise_taps(bins, side_lobe_db);
             CHECK(std::fabs(tap_correlation(taps, 0) - 1.0) < 1e-6);
             for (const int lag : {1, 2, 3, 4, 6}) {
                 // The taps stop after three widths of the pulse, as those of the echoes do. A
                 // band without taper has many more side lobes.
                 const double off =
-                    tap_correlation(taps, lag) - pulse_amplitude(bins, side_lobe_db, lag);
+                    tap_correlation(taps, lag) - line_pattern(pulse, lag / bins * unit);
                 CHECK(std::fabs(off) < (side_lobe_db < -25.0 ? 0.06 : 0.14));
             }
         }

@@ -120,10 +120,3 @@ TEST_CASE("sea bed: in a scene of many materials each scatters as if it were alo
               image_of(model, scene_of({many.materials[k]}), fan_view, strip(0.8F, 0)));
     }
 }
-
-TEST_CASE("a material that scatters nothing makes an image of zeros") {
-    const CalibratedModel model = fan_model();
-    const Scene mirror = scene_of({{.name = "mirror", .lambert_db = -300.0, .slope_rms_deg = 0.0}});
-    for (const float value : image_of(model, mirror, fan_view, strip(0.8F)))
-        CHECK(std::fabs(value) < 1e-25F);
-}

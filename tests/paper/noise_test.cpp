@@ -35,18 +35,6 @@ std::vector<float> noisy(float value, int rows, int columns, float add, float mu
     return image;
 }
 
-Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
-                 const Eigen::Vector3f& edge_v, float bin_m) {
-    Sample sample = patch_of(centre, -centre.normalized(), edge_u, edge_v);
-    sample.area_m2 = 0.5F;
-    Material material;
-    material.reflection = 0.25F;
-    Echoes echoes;
-    std::vector<std::uint32_t> ends;
-    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes, &ends);
-    return echoes;
-}
-
 }  // namespace
 
 TEST_CASE("the range noise of an echo does not depend on the echoes next to it") {
@@ -181,9 +169,14 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
     // Half edges along and across the line of sight, in bins so long that nothing is cut. Along,
     // range is linear: 5 -+ 0.2. Across it is sqrt(25 + s^2), which reaches from 5 to 5 + 0.3^2
     // / 10.
+    const Material material{.reflection = 0.25F};
     for (const float along : {0.0F, 0.2F}) {
         for (const float across : {0.0F, 0.3F}) {
-            const Echoes echoes = echoes_of({5, 0, 0}, {along, 0, 0}, {0, across, 0}, 10.0F);
+            Sample sample = patch_of({5, 0, 0}, {-1, 0, 0}, {along, 0, 0}, {0, across, 0});
+            sample.area_m2 = 0.5F;
+            Echoes echoes;
+            std::vector<std::uint32_t> ends;
+            direct_echoes({&sample, 1}, {&material, 1}, 10.0F, {}, echoes, &ends);
             REQUIRE(echoes.size() == 1);
             CHECK(echoes.weight[0] == 0.5F);
             CHECK(echoes.intensity[0] == 0.25F);
