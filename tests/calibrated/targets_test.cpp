@@ -176,7 +176,7 @@ TEST_CASE("targets: where sound bends they have the echo of their apparent place
     }
 }
 
-TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
+TEST_CASE("targets: a cube keeps its faces, a sphere has its radius and is closed") {
     const Scene scene = box_scene({-1, -1, -1}, {1, 1, 1}, 0.4F);
     const TargetShape cube =
         target_shape({scene.vertices, scene.triangles, scene.triangle_material});
@@ -198,12 +198,5 @@ TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
         CHECK(sphere.triangles.size() <= round.triangles.size());
         CHECK(sphere.closed);
         CHECK(sphere.curvature_m == approx(2.0).epsilon(0.01));
-        for (const TargetTriangle& triangle : sphere.triangles) {
-            for (int k = 0; k < 3; ++k) {
-                const Eigen::Vector3f out =
-                    (sphere.vertices[triangle.corners[k]] - Eigen::Vector3f(3, 4, 5)) / 2.0F;
-                CHECK((triangle.normals[k] - out).norm() < 1e-3F);
-            }
-        }
     }
 }
