@@ -8,10 +8,8 @@ namespace {
 /// A line array that hears all elevations alike in beams of 60 degrees of azimuth.
 Sonar line_array_sonar(double view_azimuth_deg) {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 178.0;
+    set_fan(config, 60.0, 178.0, 64);
     set_range(config, 1.0, 3.0, 100);
-    config.azimuth_bins = 64;
     config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
     return make_sonar(config, {0.005});
 }
@@ -52,9 +50,7 @@ TEST_CASE("beams are cones: a ball high up and far aside sounds as one at the sa
 TEST_CASE("beams that the array does not resolve are traced two at a time at coarse goals") {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
     set_range(config, 1.0, 5.0, 200);
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 60.0;
-    config.azimuth_bins = 120;
+    set_fan(config, 60.0, 60.0, 120);
     config.instrument.beam.width_deg = 1.0;
     const auto traced_beams = [&](double goal) {
         return traced_view(make_sonar(config, {goal}).settings.view).beams;

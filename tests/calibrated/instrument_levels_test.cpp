@@ -206,9 +206,7 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
 // echoes are equally strong.
 TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e7);
-    config.azimuth_deg = 40.0;
-    config.elevation_deg = 10.0;
-    config.azimuth_bins = 16;
+    set_fan(config, 40.0, 10.0, 16);
     set_range(config, 1.0, 5.0, 200);
     config.instrument.speckle.mode = SpeckleMode::none;
     const Sonar sonar = make_sonar(config, {});

@@ -125,9 +125,7 @@ TEST_CASE("particles: nothing is added behind the last target of a block") {
 // The object of the bins is the target, where it is stronger than the floor behind.
 TEST_CASE("particles: labels at their bin and beam") {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 2e5);
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 20.0;
-    config.azimuth_bins = 60;
+    set_fan(config, 60.0, 20.0, 60);
     set_range(config, 2.0, 22.0, 200);
     Scene scene = rectangle_scene({15, -20, -10}, {15, 20, 10}, 0.4F);
     scene.instances.emplace_back("fish_1");

@@ -59,9 +59,7 @@ TEST_CASE("sea bed: a floor has the level of the sonar equation at every angle")
     Draws draws(40);
     for (const EngineKind engine : {EngineKind::rays, EngineKind::strips}) {
         SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 4e5);
-        config.azimuth_deg = 90.0;
-        config.azimuth_bins = beams;
-        config.elevation_deg = 60.0;
+        set_fan(config, 90.0, 60.0, beams);
         set_range(config, 1.0, 21.0, 500);
         config.instrument.beam.width_deg = draws.between(0.5F, 2.0F);
         config.instrument.beam.side_lobe_db = draws.between(-35.0F, -15.0F);

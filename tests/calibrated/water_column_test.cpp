@@ -159,9 +159,7 @@ TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
 // A wall 8 m ahead fills the view, whose corners see it at 8 / cos(45) / cos(15) = 11.7 m.
 TEST_CASE("water: a wall ends it in every beam, with every engine") {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 2e5);
-    config.azimuth_deg = 90.0;
-    config.elevation_deg = 30.0;
-    config.azimuth_bins = 48;
+    set_fan(config, 90.0, 30.0, 48);
     set_range(config, 2.0, 22.0, 200);
     config.instrument = instrument_of(Aperture::line, 2.0);
     const Sonar full = make_sonar(config, {}, scattering_water());

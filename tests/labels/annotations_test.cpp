@@ -36,9 +36,8 @@ struct FoundObjects {
 /// Looks down at a floor at z = 0 from a height.
 SonarConfig wide_fan() {
     SonarConfig config = small_imaging();
-    config.elevation_deg = 60.0;
+    set_fan(config, 60.0, 60.0, 240);
     set_range(config, config.range_min_m, 14.0, 700);
-    config.azimuth_bins = 240;
     return config;
 }
 

@@ -117,8 +117,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
     const Scene scene = tank();
     SonarConfig config = small_imaging();
     config.range_bins = 512;
-    config.azimuth_bins = 128;
-    config.elevation_deg = 40.0;
+    set_fan(config, 60.0, 40.0, 128);
     const Sonar sonar = noise_free(config, 0.01);
     const SceneObjects objects = group_objects(scene, {});
     const std::size_t count = objects.objects.size();

@@ -14,14 +14,18 @@ inline void set_range(SonarConfig& config, double min_m, double max_m, int bins)
     config.range_bins = bins;
 }
 
+inline void set_fan(SonarConfig& config, double azimuth_deg, double elevation_deg, int beams) {
+    config.azimuth_deg = azimuth_deg;
+    config.elevation_deg = elevation_deg;
+    config.azimuth_bins = beams;
+}
+
 /// An imaging sonar of 60 x 12 degrees, 0.5-10 m, 256 x 64 bins, without noise.
 inline SonarConfig small_imaging() {
     SonarConfig config;
     config.name = "fls";
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 12.0;
+    set_fan(config, 60.0, 12.0, 64);
     set_range(config, 0.5, 10.0, 256);
-    config.azimuth_bins = 64;
     return config;
 }
 
