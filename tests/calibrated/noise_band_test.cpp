@@ -60,8 +60,8 @@ struct NoiseOfPings {
 
 }  // namespace
 
-// The correlation behind a matched filter is the amplitude of the pulse, whose spectrum is the power
-// spectrum of the noise.
+// The correlation behind a matched filter is the amplitude of the pulse, whose spectrum is the
+// power spectrum of the noise.
 TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
     constexpr double unit = 1e-3;  // a width in sines that stands for that of the pulse
     for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
