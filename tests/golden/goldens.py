@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Renders the small missions of this folder and compares what they make with goldens.txt.
 
-    tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER] [--under "qemu-x86_64 -cpu max"]
+    tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
 
 Each mission is rendered with one and with two threads. A line of goldens.txt is a dataset (with all variants), a sensor (or
 `-`), a kind of file, the number of such files, and the hash of their contents: arrays, decoded pixels, parsed JSON without
-what names a build, a version or a sum. --write writes goldens.txt again; say in the commit why its lines changed. --under
-runs the program by a command, such as an emulator of another processor, with one thread.
+what names a build, a version or a sum. --write writes goldens.txt again; say in the commit why its lines changed.
 """
 import argparse
 import concurrent.futures
@@ -15,7 +14,6 @@ import hashlib
 import json
 import pathlib
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -107,11 +105,11 @@ def lines_of(name, folder):
 
 
 class Renderer:
-    def __init__(self, program, folder, under=()):
-        self.program, self.folder = [*under, str(pathlib.Path(program).resolve())], folder
+    def __init__(self, program, folder):
+        self.program, self.folder = str(pathlib.Path(program).resolve()), folder
 
     def run(self, *words):
-        command = [*self.program, *map(str, words)]
+        command = [self.program, *map(str, words)]
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
         if result.returncode:
             raise SystemExit(f"{' '.join(command)}: exit code {result.returncode}\n{result.stderr}")
@@ -133,15 +131,14 @@ class Renderer:
         return lines
 
 
-def all_runs(renderer, counts):
-    """Name, way of rendering, and lines of every run, two at a time. `counts`: the numbers of threads."""
+def all_runs(renderer):
+    """Name, number of threads, and lines of every run, two at a time."""
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
-    jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
-            for threads in counts for name in names]
-    jobs.append(("preview", "1 threads", renderer.previews, ()))
+    jobs = [(name, threads, renderer.with_threads, (name, threads)) for threads in (1, 2) for name in names]
+    jobs.append(("preview", 1, renderer.previews, ()))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
-        return [(name, way, future.result()) for name, way, future in futures]
+        futures = [(name, threads, pool.submit(run, *arguments)) for name, threads, run, arguments in jobs]
+        return [(name, threads, future.result()) for name, threads, future in futures]
 
 
 def differences(expected, found):
@@ -158,15 +155,13 @@ def main():
     parser.add_argument("program", metavar="PROGRAM")
     parser.add_argument("--write", action="store_true", help="write goldens.txt instead of comparing with it")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="render into this new folder and keep it")
-    parser.add_argument("--under", type=shlex.split, default=(), metavar="COMMAND", help="run the program by this command")
     options = parser.parse_args()
     with contextlib.ExitStack() as stack:
-        folder = options.keep or stack.enter_context(tempfile.TemporaryDirectory(prefix="goldens-"))
-        make_scenes(pathlib.Path(folder).resolve())
-        runs = all_runs(Renderer(options.program, pathlib.Path(folder).resolve(), options.under),
-                        (1,) if options.under else (1, 2))
-    whole = {name: lines for name, way, lines in runs if way == "1 threads"}
-    faults = [f"{line} ({way}, compared with 1 thread)" for name, way, lines in runs
+        folder = pathlib.Path(options.keep or stack.enter_context(tempfile.TemporaryDirectory(prefix="goldens-"))).resolve()
+        make_scenes(folder)
+        runs = all_runs(Renderer(options.program, folder))
+    whole = {name: lines for name, threads, lines in runs if threads == 1}
+    faults = [f"{line} ({threads} threads, compared with 1)" for name, threads, lines in runs
               for line in differences(whole[name], lines)]
     lines = [line for name in sorted(whole) for line in whole[name]]
     if options.write and not faults:
