@@ -159,17 +159,21 @@ def check_dataset(out):
             assert all(map(math.isfinite, numbers_of(path))), f"{path.relative_to(out)} has values that are not finite"
 
 
-def limit_memory():
-    if not SANITIZED:
-        resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
+def run(folder, *words, cpu_s=LONGEST_S):
+    """The result of a command with little memory, which SIGXCPU ends after `cpu_s`; a hang is a subprocess.TimeoutExpired."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (cpu_s, cpu_s + 5))
+        if not SANITIZED:
+            resource.setrlimit(resource.RLIMIT_AS, (MAX_MEMORY, MAX_MEMORY))
+    return subprocess.run([SONARSIM, *words], cwd=folder, text=True, capture_output=True, timeout=LONGEST_S, preexec_fn=limit,
+                          check=False)
 
 
 def is_said_before(folder):
     """Whether `validate` says that the mission takes long, or more memory than there is."""
-    done = subprocess.run([SONARSIM, "validate", "mission.json", "--json", "--overwrite"], cwd=folder, capture_output=True,
-                          timeout=LONGEST_S, preexec_fn=limit_memory)
+    done = run(folder, "validate", "mission.json", "--json", "--overwrite")
     if done.returncode != 0:
-        return b"out of memory" in done.stderr
+        return "out of memory" in done.stderr
     found = json.loads(done.stdout)
     seconds = sum(s["seconds_per_ping"] * s["pings"] for s in found.get("sensors", {}).values()
                   if s["seconds_per_ping"] is not None)
@@ -177,31 +181,13 @@ def is_said_before(folder):
     return too_large or seconds > MAX_CPU_S / 3
 
 
-def run(folder, threads=2):
-    """Exit code, what was said, and seconds; the code is None after LONGEST_S, and SIGXCPU ends it after MAX_CPU_S."""
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (MAX_CPU_S, MAX_CPU_S + 5))
-        limit_memory()
-
-    start = time.monotonic()
-    with subprocess.Popen([SONARSIM, "render", "mission.json", f"-j{threads}"], cwd=folder, text=True,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limit) as process:
-        try:
-            _, stderr = process.communicate(timeout=LONGEST_S)
-            code = process.returncode
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGTERM)
-            _, stderr = process.communicate(timeout=60)
-            code = None
-    return code, stderr, time.monotonic() - start
-
-
 def check(folder):
     """Renders; returns the exit code, 1 for what is too much for this machine, or raises AssertionError."""
-    code, stderr, seconds = run(folder)
-    if code in (None, -signal.SIGXCPU) and is_said_before(folder):
+    render, start = ("render", "mission.json"), time.monotonic()
+    done = run(folder, *render, "-j2", cpu_s=MAX_CPU_S)
+    code, stderr, seconds = done.returncode, done.stderr, time.monotonic() - start
+    if code == -signal.SIGXCPU and is_said_before(folder):
         return 1
-    assert code is not None, f"not done after {LONGEST_S} s: {stderr}"
     assert code in (0, 1, 2), f"exit code {code}: {stderr}"
     errors = [line for line in stderr.splitlines() if line.startswith("error:")]
     if code == 0:
@@ -209,12 +195,11 @@ def check(folder):
         check_dataset(folder / "out")
         if seconds < MAX_TWICE_S:
             (folder / "out").rename(folder / "two_threads")
-            code, stderr, _ = run(folder, threads=1)
-            assert code == 0, stderr
+            done = run(folder, *render, "-j1", cpu_s=MAX_CPU_S)
+            assert done.returncode == 0, done.stderr
             sums = [(folder / out / "SHA256SUMS").read_text() for out in ("two_threads", "out")]
             assert sums[0] == sums[1], "one thread makes other files than two"
-            done = subprocess.run([SONARSIM, "validate", "mission.json", "--overwrite", "-q"], cwd=folder, text=True,
-                                  capture_output=True, timeout=LONGEST_S)
+            done = run(folder, "validate", "mission.json", "--overwrite", "-q")
             assert done.returncode == 0, f"validate: exit code {done.returncode}: {done.stderr}"
     else:
         assert errors and stderr.splitlines()[-len(errors):] == errors, stderr
