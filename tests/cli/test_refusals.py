@@ -104,6 +104,8 @@ def moving(keys, more="name: fish, "):
 # In place of the mine a slab of 2 m x 2 m x 0.2 m whose z points up.
 SLAB = {"slab.obj": obj(*triangles_of(box_mesh((1.0, 1.0, 0.1))))} | mine_as(
     "{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}")
+# Millimetres that are read as metres.
+POST = {"post.obj": obj(*triangles_of(box_mesh((150, 150, 450))))}
 WAY = "waypoints: [{position_m: [4, -2, 1]}, {position_m: [4, 2, 1]}], rate_hz: 5, speed_m_s: "
 
 
@@ -144,6 +146,8 @@ REFUSED = (
     (mine_as(MINE.replace("0.3", "-9")), "mission.yaml:6:7: 'mine' lies wholly below the bottom", "place: on_bottom"),
     (mine_as("{name: a, file: mine.gltf, position_m: [49.8, 0, 0], place: on_bottom}"),
      "mission.yaml:6:7: 'a' reaches beyond the bottom", "from (-50, -50) to (50, 50)", "position_m"),
+    (POST | mine_as("{name: a, file: post.obj, material: Steel, place: on_bottom}"),
+     "mission.yaml:6:7: 'a' reaches beyond the bottom", "; 'a' is 900 m long: millimetres? units: mm"),
     (mine_as("{name: a, file: mine.gltf, place: on_bottom, bury_m: 0.81}"), "'a' lies wholly below the bottom; lower bury_m"),
     (edited("  file: bottom.gltf\n", "", f"  objects:\n    - {MINE}\n", ""),
      "mission.yaml:3:3: 'scene' needs the key 'file', a heightmap, a seabed or objects"),
@@ -280,13 +284,15 @@ class Mistakes(Sandbox):
                     self.assertFalse({"W10", "W11", "W13", "W14", "W15", "W16", "W17"} & set(after), numbers)
 
     def test_how_a_file_without_axes_is_read(self):
-        self.make(SLAB)
+        self.make(SLAB | POST)
+        self.assertIn("it is 900 m long: millimetres? units: mm", self.reported("inspect", "post.obj")["questions"])
         self.assertEqual(self.reported("validate", "mission.yaml")["read_as"], ["slab.obj: metres, y up (no `up` given)"])
         self.assertRegex(self.succeeds("validate", "mission.yaml").stdout, r"read as +slab.obj: metres, y up \(no `up` given\)\n")
         self.assertRegex(self.succeeds("inspect", "slab.obj").stdout, r"^read as +metres, y up \(no `up` given\)\n")
         self.assertIn("question: slab.obj stands on its edge", self.succeeds("inspect", "slab.obj").stdout)
         said = self.reported("inspect", "slab.obj", "--up", "z", "--units", "cm")
         self.assertEqual((said["read_as"], said["questions"]), ("centimetres, z up", []))
+        self.assert_near(said["bounds_max_m"], (0.01, 0.01, 0.001))
         for up in ("y", "z"):  # an answer is not questioned
             self.make(mine_as("{name: mine, file: slab.obj, up: %s, material: Steel, position_m: [20, 4, 0.3]}" % up))
             said = self.reported("validate", "mission.yaml")

@@ -92,19 +92,6 @@ class Objects(Composed):
         self.assert_refused(self.run_sonarsim("validate", "mission.yaml", "--out", "new"), "mission.yaml:7:7: 'a' has no "
                             "material in ", "a.stl; write material: NAME for an object", "scene.material_default")
 
-    def test_questions_about_units(self):
-        """In millimetres the post is 900 m long, beyond the bottom. Those about axes: tests/scene/standing_test.cpp."""
-        self.write("post.stl", text_stl(*triangles_of(box_mesh((150, 150, 450)))))
-        for options, questions in (((), ["it is 900 m long: millimetres? units: mm"]), (("--units", "mm", "--up", "z"), [])):
-            reported = self.reported("inspect", "post.stl", *options)
-            self.assertEqual([one for one in reported["questions"] if "long" in one], questions)
-        self.assertAlmostEqual(reported["bounds_max_m"][2], 0.45, places=6)
-        post = "file: post.stl, material: steel, position_m: [5, 0, 1]}"
-        self.objects("{name: a, place: on_bottom, " + post)
-        self.refused("mission.yaml:7:7: 'a' reaches beyond the bottom", "; 'a' is 900 m long: millimetres? units: mm")
-        self.objects("{name: a, units: mm, up: z, " + post)
-        self.assertNotIn("millimetres", self.succeeds("validate", "mission.yaml").stderr)
-
     def test_without_the_modules(self):
         """A start needs neither libassimp nor OpenImageIO. A mission that does says what to install."""
         self.assertNotRegex(self.run_program("ldd", SONARSIM).stdout, "assimp|OpenImageIO")
