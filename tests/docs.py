@@ -10,7 +10,6 @@ import importlib.util
 import pathlib
 import re
 import sys
-import tempfile
 import textwrap
 
 FOLDERS = "apps|configs|docs|lib|scenes|scripts|tests|trajectories"
@@ -31,15 +30,14 @@ def anchors_of(page: pathlib.Path) -> set[str]:
             for title in re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)}
 
 
-def faults_in_quotes(page: pathlib.Path, root: pathlib.Path) -> list[str]:
+def faults_in_quotes(page: str, text: str, root: pathlib.Path) -> list[str]:
     faults = []
-    text = page.read_text()
     for block in BLOCK.finditer(text):
         file, code = block.groups()
         if file and (root / file).is_file() and code in (root / file).read_text():
             continue
         what = f"this code does not stand in {file}" if file else "write <!-- from FILE --> above this code"
-        faults.append(f"{page.relative_to(root)}:{text.count(chr(10), 0, block.start(2))}: {what}")
+        faults.append(f"{page}:{text.count(chr(10), 0, block.start(2))}: {what}")
     return faults
 
 
@@ -76,13 +74,11 @@ def paths_in(value, path: str, keys: set[str]):
             yield from paths_in(inner, below, keys)
 
 
-def faults_in_keys(page: pathlib.Path, root: pathlib.Path, keys: set[str]) -> list[str]:
+def faults_in_keys(page: str, text: str, keys: set[str]) -> list[str]:
     """Keys that no mission has: in blocks that begin with a section of the mission or of a scene or sensor."""
-    text = page.read_text()
-    where = page.relative_to(root)
     sections = {key.rsplit(".", 1)[0] for key in keys if "." in key}
     last = {part for section in sections for part in section.split(".")}
-    faults = [f"{where}: no mission has a key {name}" for name in DOTTED.findall(text)
+    faults = [f"{page}: no mission has a key {name}" for name in DOTTED.findall(text)
               if name.split(".")[0] in last and name.rsplit(".", 1)[1] not in FILES
               and not any(f".{key}".endswith("." + re.sub(r"\.\d+\b", "", name).replace(".NAME", "")) for key in keys)]
     if importlib.util.find_spec("yaml") is None:
@@ -94,47 +90,43 @@ def faults_in_keys(page: pathlib.Path, root: pathlib.Path, keys: set[str]) -> li
         for above in [one for one in ("", "scene.", "sensors.") if first and one + first.group(1) in keys][:1]:
             with contextlib.suppress(yaml.YAMLError):  # commands may stand in the same block
                 paths = set(paths_in(yaml.safe_load(body), above.rstrip("."), keys))
-                faults += [f"{where}: no mission has a key {path}" for path in sorted(paths - keys)]
+                faults += [f"{page}: no mission has a key {path}" for path in sorted(paths - keys)]
     return faults
 
 
-def faults_in_commands(page: pathlib.Path, root: pathlib.Path) -> list[str]:
+def faults_in_commands(page: str, text: str, root: pathlib.Path) -> list[str]:
     """Commands and options of the program that its sources do not name."""
     program = "".join(file.read_text() for folder in ("apps/sonarsim", "apps/python/sonarsim")
                       for file in (root / folder).rglob("*") if file.suffix in (".cpp", ".h", ".py"))
     faults = []
-    for command, rest in COMMAND.findall(page.read_text().replace("\\\n", "")):
+    for command, rest in COMMAND.findall(text.replace("\\\n", "")):
         unknown = [option for option in re.findall(r"(?<=\s)--[a-z][a-z-]*", re.split(r"\s{2,}#| # ", rest)[0])
                    if f'"{option}"' not in program and f",{option}" not in program]
         unknown += [] if f'"{command}"' in program else [command]
-        faults += [f"{page.relative_to(root)}: sonarsim {command} does not have {name}" for name in unknown]
+        faults += [f"{page}: sonarsim {command} does not have {name}" for name in unknown]
     return faults
 
 
-def try_the_rules():
-    with tempfile.TemporaryDirectory() as folder:
-        root = pathlib.Path(folder)
-        (root / "a.cpp").write_text("int a;\nint b;\n")
-        page = root / "page.md"
-        keys = {"seed", "scene", "scene.objects", "scene.objects.file", "sensors", "sensors.noise", "sensors.noise.gain"}
-        cases = [(faults_in_quotes(page, root), fault) for text, fault in (
-            ("<!-- from a.cpp -->\n```cpp\nint b;\n```\n", ""),
-            ("<!-- from a.cpp -->\n```cpp\nint c;\n```\n", "page.md:2: this code"),
-            ("<!-- from b.cpp -->\n```cpp\nint b;\n```\n", "page.md:2: this code"),
-            ("Text\n```cpp\nint b;\n```\n", "page.md:2: write <!-- from")) if page.write_text(text)]
-        cases += [(faults_in_keys(page, root, keys), fault) for text, fault in (
-            ("`scene.objects.0.file` and `noise.gain`, `scene.file`\n", "page.md: no mission has a key scene.file"),
-            ("`numpy.array`\n", ""), ("    sonarsim render\n", ""),
-            ("```yaml\nsensors: {fls: {noise: {gain: 1}}}\n```\n", ""),
-            *([("    objects:\n      - {file: a.glb, of: 1}\n", "page.md: no mission has a key scene.objects.of")]
-              if importlib.util.find_spec("yaml") else [])) if page.write_text(text)]
+def try_the_rules(root: pathlib.Path):
+    keys = {"seed", "scene", "scene.objects", "scene.objects.file", "sensors", "sensors.noise", "sensors.noise.gain"}
+    cases = [(faults_in_quotes("page.md", text, root), fault) for text, fault in (
+        ("<!-- from tests/docs.py -->\n```cpp\nimport sys\n```\n", ""),
+        ("<!-- from tests/docs.py -->\n```cpp\nimport c\n```\n", "page.md:2: this code"),
+        ("<!-- from tests/none.py -->\n```cpp\nimport sys\n```\n", "page.md:2: this code"),
+        ("Text\n```cpp\nint b;\n```\n", "page.md:2: write <!-- from"))]
+    cases += [(faults_in_keys("page.md", text, keys), fault) for text, fault in (
+        ("`scene.objects.0.file` and `noise.gain`, `scene.file`\n", "page.md: no mission has a key scene.file"),
+        ("`numpy.array`\n", ""), ("    sonarsim render\n", ""),
+        ("```yaml\nsensors: {fls: {noise: {gain: 1}}}\n```\n", ""),
+        *([("    objects:\n      - {file: a.glb, of: 1}\n", "page.md: no mission has a key scene.objects.of")]
+          if importlib.util.find_spec("yaml") else []))]
     for found, fault in cases:
         assert [line[:len(fault)] for line in found] == [fault] * bool(fault), (found, fault)
 
 
-def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
+def faults_of(page: pathlib.Path, text: str, root: pathlib.Path) -> list[str]:
     faults = []
-    for number, line in enumerate(page.read_text().splitlines(), 1):
+    for number, line in enumerate(text.splitlines(), 1):
         where = f"{page.relative_to(root)}:{number}"
         for path in PATH.findall(line):
             if not path.startswith(MADE_LATER) and not (root / path).exists():
@@ -155,13 +147,14 @@ def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
 
 
 def main(root: pathlib.Path) -> int:
-    try_the_rules()
+    try_the_rules(root)
     keys = keys_of(root)
     pages = sorted((root / "docs").rglob("*.md")) + sorted(root.glob("*.md"))
     faults = faults_in_api(root)
     for page in pages:
-        faults += faults_of(page, root) + faults_in_quotes(page, root) + faults_in_commands(page, root)
-        faults += faults_in_keys(page, root, keys) if page.name != "CHANGELOG.md" else []
+        name, text = str(page.relative_to(root)), page.read_text()
+        faults += faults_of(page, text, root) + faults_in_quotes(name, text, root) + faults_in_commands(name, text, root)
+        faults += faults_in_keys(name, text, keys) if page.name != "CHANGELOG.md" else []
     print("\n".join(faults) if faults else f"{len(pages)} pages name nothing that is not there")
     return 1 if faults else 0
 
