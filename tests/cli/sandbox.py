@@ -3,7 +3,7 @@ import array
 import base64
 import contextlib
 import hashlib
-import importlib
+import importlib.util
 import json
 import math
 import os
@@ -199,10 +199,7 @@ def python_with(module):
 
 def run_with(*modules):
     """Starts these tests again in a Python that has the modules; exit code 77 where there is none."""
-    try:
-        for module in modules:
-            importlib.import_module(module)
-    except ImportError:
+    if not all(map(importlib.util.find_spec, modules)):
         python = python_with(", ".join(modules))
         if python in (None, sys.executable):
             sys.exit(77)
