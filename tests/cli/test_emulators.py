@@ -12,8 +12,7 @@ if SANITIZED or not (VALGRIND or QEMU):
 
 SCENE = f"""\
 trajectory:
-  waypoints: [{{position_m: [0, 0, 1.5], rpy_deg: [0, 15, 0]}},
-              {{position_m: [0.1, 0.1, 1.5], rpy_deg: [0, 15, -3]}}]
+  waypoints: [{{position_m: [0, 0, 1.5], rpy_deg: [0, 15, 0]}}, {{position_m: [0.1, 0.1, 1.5], rpy_deg: [0, 15, -3]}}]
   speed_m_s: 0.1
   rate_hz: 1
 output: {{folder: out, labels: true}}

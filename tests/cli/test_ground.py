@@ -10,22 +10,14 @@ from sandbox import ROOT, Composed, box_mesh, digest, gltf, grid_mesh, height_of
 COLUMNS, ROWS, PIXEL = 48, 40, 0.25
 SONAR = """\
 sensors:
-  fls:
-    kind: imaging
-    range_max_m: 9
-    range_bins: 48
-    azimuth_bins: 32
-    mount: {rpy_deg: [0, 25, 0]}
+  fls: {kind: imaging, range_max_m: 9, range_bins: 48, azimuth_bins: 32, mount: {rpy_deg: [0, 25, 0]}}
 output: {folder: %s, labels: true}
 """
 OVER_THE_MAP = """\
 seed: 5
 scene:
 %s  materials: materials.csv
-%strajectory:
-  waypoints: [{position_m: [1, 4.5, 3]}, {position_m: [2, 5, 3], rpy_deg: [0, 0, 30]}]
-  speed_m_s: 1
-  rate_hz: 3
+%strajectory: {waypoints: [{position_m: [1, 4.5, 3]}, {position_m: [2, 5, 3], rpy_deg: [0, 0, 30]}], speed_m_s: 1, rate_hz: 3}
 """ + SONAR
 OBJECTS = """\
   objects:
@@ -100,10 +92,7 @@ scene:
   file: floor.gltf
   materials: materials.csv
   bottom: [floor]
-%strajectory:
-  waypoints: [{position_m: [-5, 0, 2]}, {position_m: [5, 0, 2]}]
-  speed_m_s: 10
-  rate_hz: 1
+%strajectory: {waypoints: [{position_m: [-5, 0, 2]}, {position_m: [5, 0, 2]}], speed_m_s: 10, rate_hz: 1}
 sensors: {side: {kind: sidescan, range_min_m: 2.5, range_max_m: 8, range_bins: 55}}
 output: {folder: out, labels: [material, clean]}
 """
@@ -173,10 +162,7 @@ scene:
     ripples: {height_m: 0.1, length_m: 0.8, direction_deg: 20}
   objects:
     - {name: crate, file: crate.gltf, position_m: [4, 0.5, 9], place: on_bottom}
-trajectory:
-  waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}]
-  speed_m_s: 1
-  rate_hz: 2
+trajectory: {waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}], speed_m_s: 1, rate_hz: 2}
 """ + SONAR % "out"
 
 
@@ -240,7 +226,7 @@ class Seabed(Composed):
                    "mud + shells,1150,1470,7\nmud,1200,1480,7\n")
         self.write("mission.yaml", BED.replace("    material: Concrete\n", "    patch_m: 2\n    sediments:\n"
                    "      [{material: sand, share: 1}, {material: mud + shells, share: 1}, {material: mud, share: 1}]\n")
-                   .replace("imaging", "sidescan").replace("    azimuth_bins: 32\n", "").replace("true", "[material]"))
+                   .replace("imaging", "sidescan").replace("azimuth_bins: 32, ", "").replace("true", "[material]"))
         self.assert_renders()
         names = {entry["id"]: entry["name"] for entry in self.dataset()["labels"]["materials"]}
         self.assertTrue({"sand + 40 % mud + shells", "mud + shells + 40 % sand"} < set(names.values()), names)

@@ -41,22 +41,10 @@ trajectory: {file: track.csv}
 water: {sound_speed_m_s: 1500}
 output: {polar: false}
 sensors:
-  made:
-    kind: imaging
-    model: calibrated
-    azimuth_deg: 48
-    elevation_deg: 60
-    range_min_m: 1
-    range_max_m: 5.8
-    range_bins: 240
-    azimuth_bins: 96
-    instrument:
-      frequency_hz: 1e6
-      source_level_db: 0
-      beam: {width_deg: 0.9, side_lobe_db: -22, spread: sine}
-      pulse: {resolution_m: 0.04}
-      speckle: {mode: ping}
-      receiver: {noise_db: -105, full_scale_db: -62, tvg_log: 30, gamma: 0.6}
+  made: {kind: imaging, model: calibrated, azimuth_deg: 48, elevation_deg: 60, range_min_m: 1, range_max_m: 5.8,
+         range_bins: 240, azimuth_bins: 96, instrument: {frequency_hz: 1e6, source_level_db: 0,
+           beam: {width_deg: 0.9, side_lobe_db: -22, spread: sine}, pulse: {resolution_m: 0.04}, speckle: {mode: ping},
+           receiver: {noise_db: -105, full_scale_db: -62, tvg_log: 30, gamma: 0.6}}}
 """
 TRUTH = {"beam.width_deg": 0.9, "pulse.resolution_m": 0.04, "receiver.full_scale_db": -62.0, "receiver.tvg_log": 30.0,
          "receiver.gamma": 0.6}
@@ -130,8 +118,7 @@ class Fits(unittest.TestCase):
         self.assertAlmostEqual(found.half_width, 1.96 * x.std() / 20.0, delta=0.02)
 
     def test_law(self):
-        for seed in range(6):
-            draws = np.random.default_rng(seed)
+        for draws in map(np.random.default_rng, range(6)):
             gamma, range_db = draws.uniform(0.35, 0.7), draws.uniform(50.0, 80.0)
             amplitude = noise_of(draws, tvg=draws.uniform(15.0, 30.0))
             power = law.fit_law(recording_of(amplitude, gamma, full=4095).values, 4095.0, LogStatistics())
@@ -145,8 +132,8 @@ class Fits(unittest.TestCase):
         # The half of the patches whose quarters are most alike lacks variance; ln P of speckle has pi^2 / 6. The means of
         # 16 draws of 80 patches have a standard deviation of 1 %: four of these are 4 %.
         shares = []
-        for seed in range(16):
-            power = np.abs(speckle(np.random.default_rng(seed), width_bins=2.5, width_deg=1.6)) ** 2
+        for draws in map(np.random.default_rng, range(16)):
+            power = np.abs(speckle(draws, width_bins=2.5, width_deg=1.6)) ** 2
             patches = Patches(np.sqrt(power), 10.0, lambda amplitude: 2.0 * np.log(amplitude))
             even = patches.even()
             shares.append([patches.variance[even].mean(), patches.whole_variance(even, LogStatistics())[even].mean()])
@@ -155,8 +142,7 @@ class Fits(unittest.TestCase):
         self.assertGreater(whole - lacking, 0.015)
 
     def test_noise_and_its_growth(self):
-        for seed in range(6):
-            draws = np.random.default_rng(10 + seed)
+        for draws in map(np.random.default_rng, range(10, 16)):
             tvg, level = draws.uniform(10.0, 40.0), draws.uniform(-50.0, -35.0)
             amplitude = noise_of(draws, tvg, level)
             # Echoes only add to noise: they must not lift the law.
@@ -168,8 +154,7 @@ class Fits(unittest.TestCase):
             self.assert_within(found.tvg_log, tvg)
 
     def test_pulse_and_array(self):
-        for seed in range(6):
-            draws = np.random.default_rng(20 + seed)
+        for draws in map(np.random.default_rng, range(20, 26)):
             bins, width, side_lobe = draws.uniform(1.2, 3.0), draws.uniform(0.7, 1.6), draws.uniform(-30.0, -15.0)
             logs = 2.0 * np.log(np.abs(speckle(draws, 4, bins, width, side_lobe)))
             patches = Patches(logs, np.inf, lambda ping: ping)
@@ -180,8 +165,7 @@ class Fits(unittest.TestCase):
             self.assertTrue(found[1].low - 2.0 < side_lobe < found[1].high + 2.0, (found[1], side_lobe))
 
     def test_a_logarithm_that_cuts_off_noise(self):
-        for seed in range(4):
-            draws = np.random.default_rng(50 + seed)
+        for draws in map(np.random.default_rng, range(50, 54)):
             range_db = draws.uniform(50.0, 57.0)
             pings = recording_of(noise_of(draws, 20.0, -45.0, pings=10), range_db=range_db, full=4095).values
             self.assertGreater((pings == 0.0).mean(), 0.01)

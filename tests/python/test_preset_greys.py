@@ -13,12 +13,9 @@ scene:
   seabed: {{material: sand, size_m: [{size}, {size}], cell_m: {cell}, z_m: -{height},
            roughness: {{spectral_strength_cm4: 0.0044, spectral_exponent: 3.25, corner_m: 2}}}}
   objects: {objects}
-trajectory:
-  waypoints: [{{position_m: [{middle}, {middle}, 0]}}, {{position_m: [{end}, {middle}, 0]}}]
-  speed_m_s: 1
-  rate_hz: {rate}
-sensors:
-  s: {{preset: sensors/{preset}.yaml{mount}}}
+trajectory: {{waypoints: [{{position_m: [{middle}, {middle}, 0]}}, {{position_m: [{end}, {middle}, 0]}}],
+             speed_m_s: 1, rate_hz: {rate}}}
+sensors: {{s: {{preset: sensors/{preset}.yaml{mount}}}}}
 output: {{raw: true, fan: false, polar: false}}
 variants: 2
 """
