@@ -62,8 +62,7 @@ def main(build, compiler):
         scenario.write_text('{"agents": [{"sensors": [{"sensor_type": "ImagingSonar"}]}]}')
         assert "kind: \"imaging\"" in run(prefix / "bin/sonarsim", "import-holoocean", scenario)
         share = prefix / "share/sonarsim"
-        run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set",
-            "trajectory.rate_hz=0.2", cwd=folder)
+        run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set", "trajectory.rate_hz=0.2", cwd=folder)
         assert pathlib.Path(folder, "out/tank_imaging/SHA256SUMS").exists()
         render_all(prefix / "bin/sonarsim", share, folder)
         # It finds the instruments of the package.
@@ -74,21 +73,17 @@ def main(build, compiler):
         run("cp", "-r", share, copy)
         run("scripts/make_scenes.py", "lifeboat", cwd=copy)
         assert "rails" in run(prefix / "bin/sonarsim", "inspect", copy / "scenes/generated/lifeboat.glb")
-        run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
-            f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",
-            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
+        run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={compiler}",
+            "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")
         # The project itself asks for no standard and no instruction set.
         command = (own / "compile_commands.json").read_text()
-        for option in ("-std=gnu++20", "-march=x86-64-v3", "-DEIGEN_MPL2_ONLY",
-                       "-DEIGEN_FAST_MATH=0"):
+        for option in ("-std=gnu++20", "-march=x86-64-v3", "-DEIGEN_MPL2_ONLY", "-DEIGEN_FAST_MATH=0"):
             assert option in command, f"{option} is missing in {command}"
         assert "-Wall" not in command, command
         run("cmake", "--build", own, "--parallel", "2")
+        range_m, name, occupied = run(own / "pings", share / "configs/tank_imaging.yaml").split()
         # 512 bins from 0.1 to 10 m: the wall at 5 m lies in bin 253, which begins at 4.992 m.
-        range_m = float(run(own / "one_ping"))
-        assert 5.0 - 9.9 / 512 < range_m <= 5.0, range_m
-        tank = prefix / "share/sonarsim/configs/tank_imaging.yaml"
-        name, occupied = run(own / "mission_ping", tank).split()
+        assert 5.0 - 9.9 / 512 < float(range_m) <= 5.0, range_m
         assert name == "fls" and 1000 < int(occupied) < 512 * 256, (name, occupied)
         print(f"installed, found, built and run: the wall echoes from {range_m} m on")
 
