@@ -65,6 +65,29 @@ class Texts(Sandbox):
             printed = subprocess.run(command, text=True, capture_output=True, timeout=60, check=True).stdout
             self.assertEqual(found.group(1), printed, "run ./scripts/write_keys.sh")
 
+    def test_what_is_misspelt_is_named(self):
+        for arguments, message in (
+                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
+                (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
+                (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
+                (["render", "mission.yaml", "--set", "seed"], "--set"),
+                (["render", "mission.yaml", "--out", ""], "--out: the folder's name is empty"),
+                (["render", "mission.yaml", "--checkpoint", "nan"], "--checkpoint: nan is not from 0.01 to 3600"),
+                (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
+                 "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
+                (["mission.yaml"], "a subcommand must come first, as in: sonarsim render mission.yaml"),
+                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
+                (["--quiet"], "unknown option '--quiet'"),
+                (["render", "mission.yaml", "--overwite"], "unknown option '--overwite' (did you mean '--overwrite'?)"),
+                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
+                (["inspect", "none.glb"], "none.glb"), (["render", "out"], "out: cannot open"),
+                (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
+                (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
+            with self.subTest(arguments=arguments):
+                result = self.run_sonarsim(*arguments, code=2)
+                self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
+                self.assertFalse(self.out.exists())
+
 
 class Python(Sandbox):
     """SONARSIM_PYTHON names a program that stands in for the interpreter."""
@@ -97,31 +120,6 @@ class Python(Sandbox):
         result = self.run_tool(f'exec /usr/bin/python3 -SIc "import sys; sys.path.append(\'${{PYTHONPATH%%:*}}\'); {need}"\n',
                                "export", code=2)
         self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
-
-
-class Usage(Sandbox):
-    def test_what_is_misspelt_is_named(self):
-        for arguments, message in (
-                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
-                (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
-                (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
-                (["render", "mission.yaml", "--set", "seed"], "--set"),
-                (["render", "mission.yaml", "--out", ""], "--out: the folder's name is empty"),
-                (["render", "mission.yaml", "--checkpoint", "nan"], "--checkpoint: nan is not from 0.01 to 3600"),
-                (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
-                 "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
-                (["mission.yaml"], "a subcommand must come first, as in: sonarsim render mission.yaml"),
-                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
-                (["--quiet"], "unknown option '--quiet'"),
-                (["render", "mission.yaml", "--overwite"], "unknown option '--overwite' (did you mean '--overwrite'?)"),
-                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
-                (["inspect", "none.glb"], "none.glb"), (["render", "out"], "out: cannot open"),
-                (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
-                (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
-            with self.subTest(arguments=arguments):
-                result = self.run_sonarsim(*arguments, code=2)
-                self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
-                self.assertFalse(self.out.exists())
 
 
 # A text that stands in the small mission, what it becomes, and the key at which it is wrong.

@@ -171,30 +171,6 @@ vehicle: {navigation: {position_m: 0.1}}
   particles: [{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}]""")
 
 
-class Keys(Sandbox):
-    def rows_below(self, heading):
-        """The keys of the first table below a heading of docs/dataset.md."""
-        text = (ROOT / "docs/dataset.md").read_text().split(heading + "\n", 1)[1].split("\n#", 1)[0]
-        rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("| `")]
-        return {key for row in rows for key in re.findall("`([^`]+)`", row)}
-
-    def test_the_tables_of_the_page_have_the_keys_of_a_dataset(self):
-        """A key stands in its table, or all keys below it do; and a dataset has every key of the tables."""
-        self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.1, 0.1, 0.1))]))
-        self.write("crate.csv", path_csv(6, "1.5,0,0,0,0"))     # not around the sonars
-        self.write("mission.yaml", KEYS)
-        self.assert_renders()
-        blocks = self.dataset("out/variant_0000")["sensors"]
-        metas = [self.json(f"out/variant_0000/{one['name']}/meta/000000.json") for one in blocks]
-        for heading, found in (("### The description of a sensor", blocks), ("### The metadata of a ping", metas)):
-            rows = self.rows_below(heading)
-            keys = set()
-            for block in found:
-                for key, value in block.items():
-                    keys |= {key} if key in rows or not isinstance(value, dict) else {f"{key}.{inner}" for inner in value}
-            self.assertEqual(keys, rows)
-
-
 class DrawnScene:
     """A floor with boxes and balls at random, and the distance of a point from each of them."""
 
@@ -239,7 +215,29 @@ POINTS = mission_of(f"""\
 """, "fan: false, labels: [instance, class, elevation]", 'classes: [{nodes: "ball*", class: ball}]\n', "file: drawn.gltf")
 
 
-class Points(Sandbox):
+class Others(Sandbox):
+    def rows_below(self, heading):
+        """The keys of the first table below a heading of docs/dataset.md."""
+        text = (ROOT / "docs/dataset.md").read_text().split(heading + "\n", 1)[1].split("\n#", 1)[0]
+        rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("| `")]
+        return {key for row in rows for key in re.findall("`([^`]+)`", row)}
+
+    def test_the_tables_of_the_page_have_the_keys_of_a_dataset(self):
+        """A key stands in its table, or all keys below it do; and a dataset has every key of the tables."""
+        self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.1, 0.1, 0.1))]))
+        self.write("crate.csv", path_csv(6, "1.5,0,0,0,0"))     # not around the sonars
+        self.write("mission.yaml", KEYS)
+        self.assert_renders()
+        blocks = self.dataset("out/variant_0000")["sensors"]
+        metas = [self.json(f"out/variant_0000/{one['name']}/meta/000000.json") for one in blocks]
+        for heading, found in (("### The description of a sensor", blocks), ("### The metadata of a ping", metas)):
+            rows = self.rows_below(heading)
+            keys = set()
+            for block in found:
+                for key, value in block.items():
+                    keys |= {key} if key in rows or not isinstance(value, dict) else {f"{key}.{inner}" for inner in value}
+            self.assertEqual(keys, rows)
+
     def test_points_lie_on_the_surfaces_of_the_scene(self):
         """By each model, and in each frame: a column of the calibrated model is a cone, not an azimuth."""
         drawn = DrawnScene(3)

@@ -68,13 +68,8 @@ def plate(half_y, half_z):
 
 def silhouettes(bodies):
     """For each body, the bins [range, beam] of its nearest points in a z-buffer; points lie closer than its steps."""
-    at, owner = [], []
-    for number, points in enumerate(bodies.values()):
-        fine = np.concatenate([points[:-1] * (1 - s) + points[1:] * s for s in np.arange(0, 1, 0.25)])
-        fine = np.concatenate([fine[:, :-1] * (1 - s) + fine[:, 1:] * s for s in np.arange(0, 1, 0.25)], 1)
-        at.append(fine.reshape(-1, 3))
-        owner.append(np.full(len(at[-1]), number))
-    at, owner = np.concatenate(at), np.concatenate(owner)
+    fine = [ndimage.zoom(points, (4, 4, 1), order=1).reshape(-1, 3) for points in bodies.values()]
+    at, owner = np.concatenate(fine), np.repeat(range(len(fine)), [len(points) for points in fine])
     r = np.linalg.norm(at, axis=1)
     across = (30 + np.degrees(np.arctan2(at[:, 1], at[:, 0]))) / 60 * BEAMS
     up = np.degrees(np.arcsin(at[:, 2] / r)) / 60 * BEAMS

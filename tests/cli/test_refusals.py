@@ -41,7 +41,7 @@ def bottom(scale=1.0, z=0.0):
 
 
 def mine(half):
-    return gltf([{"name": "steel", "mesh": 0}], [box_mesh((half,) * 3)], ("Steel",))
+    return box_gltf((half,) * 3, "Steel")
 
 
 def lone_hull():

@@ -12,31 +12,28 @@ import urllib.request
 
 CHROMIUM = shutil.which("chromium")
 CHROMEDRIVER = shutil.which("chromedriver")
-KEYS = {"right": "\ue014", "left": "\ue012", "up": "\ue013", "down": "\ue015", "home": "\ue011",
-        "end": "\ue010", "escape": "\ue00c"}
+KEYS = {"right": "\ue014", "left": "\ue012", "down": "\ue015", "home": "\ue011", "end": "\ue010", "escape": "\ue00c"}
 
 
 @contextlib.contextmanager
-def opened(width=1300, height=850):
+def opened():
     """A Browser with one window."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
-    with (tempfile.TemporaryDirectory(prefix="sonarsim-browser-") as profile,
-          subprocess.Popen([CHROMEDRIVER, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as driver):
-        try:
-            window = Browser(f"http://127.0.0.1:{port}")
-            until(window.is_ready, "an answer of chromedriver")
-            options = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                       f"--user-data-dir={profile}", f"--window-size={width},{height}"]
-            window.server += "/session/" + window.send("POST", "/session", {"capabilities": {"alwaysMatch": {
-                "goog:chromeOptions": {"binary": CHROMIUM, "args": options},
-                "goog:loggingPrefs": {"browser": "ALL"}}}})["sessionId"]
-            try:
-                yield window
-            finally:
-                window.send("DELETE", "")
-        finally:
-            driver.terminate()
+    with contextlib.ExitStack() as stack:
+        profile = stack.enter_context(tempfile.TemporaryDirectory(prefix="sonarsim-browser-"))
+        driver = stack.enter_context(subprocess.Popen([CHROMEDRIVER, f"--port={port}"], stdout=subprocess.DEVNULL,
+                                                      stderr=subprocess.DEVNULL))
+        stack.callback(driver.terminate)
+        window = Browser(f"http://127.0.0.1:{port}")
+        until(window.is_ready, "an answer of chromedriver")
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={profile}",
+                   "--window-size=1300,850"]
+        window.server += "/session/" + window.send("POST", "/session", {"capabilities": {"alwaysMatch": {
+            "goog:chromeOptions": {"binary": CHROMIUM, "args": options},
+            "goog:loggingPrefs": {"browser": "ALL"}}}})["sessionId"]
+        stack.callback(window.send, "DELETE", "")
+        yield window
 
 
 def until(ask, what):
@@ -75,8 +72,7 @@ class Browser:
 
     def press(self, *keys):
         """Keys by their names in KEYS, or single letters."""
-        actions = [{"type": kind, "value": KEYS.get(key, key)}
-                   for key in keys for kind in ("keyDown", "keyUp")]
+        actions = [{"type": kind, "value": KEYS.get(key, key)} for key in keys for kind in ("keyDown", "keyUp")]
         self.send("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": actions}]})
 
     def wait_for(self, script):

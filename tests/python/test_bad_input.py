@@ -80,14 +80,11 @@ class BadInput(tool.ToolTest):
                         f"u.find_spec = lambda name, package=None: None if name == '{package}' else find(name, package)")
                 self.refused(name, f"install python3-{package.lower()} ", setup=hide)
 
-
-class ForeignNumbers(tool.ToolTest):
-    """Of a dataset.json from elsewhere: each is refused within a second or so, and little memory."""
-    LIMITS = ("import resource; resource.setrlimit(resource.RLIMIT_AS, (3 << 30,) * 2); "
-              "resource.setrlimit(resource.RLIMIT_CPU, (20, 20))")
-
     def test_more_than_lies_on_disk(self):
-        out = self.folder / "in"
+        """Numbers of a dataset.json from elsewhere are refused within a second or so, and little memory."""
+        limits = ("import resource; resource.setrlimit(resource.RLIMIT_AS, (3 << 30,) * 2); "
+                  "resource.setrlimit(resource.RLIMIT_CPU, (20, 20))")
+        out = self.source
         test_export.write_dataset(out)
         sound = {name: (out / name).read_text() for name in ("dataset.json", "sss/objects.json", "trajectory.tum")}
         wide = json.loads(sound["dataset.json"])
@@ -105,10 +102,10 @@ class ForeignNumbers(tool.ToolTest):
                 ("dataset.json", json.dumps(raw), "too large a fan", ("--image", "raw"))):
             with tool.replaced(out / name, text), self.subTest(name=name, words=words):
                 self.assertNotEqual(text, sound[name])
-                self.assert_refused("export", words, out, "--format", "yolo", *more, self.folder / "e", setup=self.LIMITS)
+                self.assert_refused("export", words, out, "--format", "yolo", *more, self.folder / "e", setup=limits)
                 if "pose" in words:
-                    self.assert_refused("gallery", words, out, setup=self.LIMITS)
-                    self.assert_refused("compare", words, out, out, setup=self.LIMITS)
+                    self.assert_refused("gallery", words, out, setup=limits)
+                    self.assert_refused("compare", words, out, out, setup=limits)
 
 
 class Mutations(tool.ToolTest):

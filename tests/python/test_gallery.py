@@ -135,7 +135,10 @@ class InBrowser(Gallery):
             self.assertEqual(window.run("return document.title"), "out - sonarsim")
 
 
-class Rendered(Gallery):
+class Files(Gallery):
+    def refused(self, text):
+        self.assert_refused("gallery", text, self.out)
+
     def test_every_sonar_of_a_rendered_dataset_has_its_objects(self):
         self.render_tank("out", "trajectory.rate_hz=3", "sensors.head.step_deg=40")     # two sweeps
         self.write_page()
@@ -154,11 +157,6 @@ class Rendered(Gallery):
                     with Image.open(self.out / view["file"].replace("%06d", "000000").replace("%04d", "0000")) as picture:
                         self.assertTrue((view.get("origin_px", [0, 0]) + size <= picture.size).all())
         self.assertNotIn("index", self.sonarsim("verify", "out").stderr)
-
-
-class Files(Gallery):
-    def refused(self, text):
-        self.assert_refused("gallery", text, self.out)
 
     def test_bad_datasets_are_refused_in_one_sentence(self):
         description = write_dataset(self.out)
