@@ -50,17 +50,12 @@ def check(root, name, most, own, compiler, includes):
         unit = folder / "unit.cpp"
         unit.write_text("".join(f'#include "{file.removeprefix("lib/")}"\n' for file in
                                 sorted(files, key=lambda file: file.endswith(".cpp"))))
-        run(compiler, "-std=gnu++20", "-march=x86-64-v3", "-fsyntax-only", "-Wall", "-Wextra", "-Werror",
-            *flags, unit)
-
-
-def main(root, compiler, includes):
-    for name, most, own in EXAMPLES:
-        check(root, name, most, own, compiler, includes)
+        run(compiler, "-std=gnu++20", "-march=x86-64-v3", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *flags, unit)
 
 
 if __name__ == "__main__":
     if shutil.which("git") is None:
         print("git is not here, which applies the patches")
         sys.exit(77)
-    main(pathlib.Path(sys.argv[1]), sys.argv[2], [path for path in sys.argv[3].split(":") if path])
+    for name, most, own in EXAMPLES:
+        check(pathlib.Path(sys.argv[1]), name, most, own, sys.argv[2], [path for path in sys.argv[3].split(":") if path])
