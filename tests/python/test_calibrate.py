@@ -117,17 +117,6 @@ class Fits(unittest.TestCase):
         found = bootstrap(len(x), lambda w: w @ x / w.sum(axis=1), draws=400)[0]
         self.assertAlmostEqual(found.half_width, 1.96 * x.std() / 20.0, delta=0.02)
 
-    def test_law(self):
-        for draws in map(np.random.default_rng, range(6)):
-            gamma, range_db = draws.uniform(0.35, 0.7), draws.uniform(50.0, 80.0)
-            amplitude = noise_of(draws, tvg=draws.uniform(15.0, 30.0))
-            power = law.fit_law(recording_of(amplitude, gamma, full=4095).values, 4095.0, LogStatistics())
-            self.assertFalse(power.is_log)
-            self.assert_within(power.scale, gamma)
-            logarithm = law.fit_law(recording_of(amplitude, range_db=range_db).values, 255.0, LogStatistics())
-            self.assertTrue(logarithm.is_log)
-            self.assert_within(logarithm.scale, range_db)
-
     def test_even_patches_have_the_whole_variance(self):
         # The half of the patches whose quarters are most alike lacks variance; ln P of speckle has pi^2 / 6. The means of
         # 16 draws of 80 patches have a standard deviation of 1 %: four of these are 4 %.
@@ -165,11 +154,14 @@ class Fits(unittest.TestCase):
             self.assertTrue(found[1].low - 2.0 < side_lobe < found[1].high + 2.0, (found[1], side_lobe))
 
     def test_a_logarithm_that_cuts_off_noise(self):
+        """Laws of powers: test_a_dataset_gives_its_instrument_back."""
         for draws in map(np.random.default_rng, range(50, 54)):
             range_db = draws.uniform(50.0, 57.0)
             pings = recording_of(noise_of(draws, 20.0, -45.0, pings=10), range_db=range_db, full=4095).values
             self.assertGreater((pings == 0.0).mean(), 0.01)
-            self.assert_within(law.fit_law(pings, 4095.0, LogStatistics()).scale, range_db)
+            found = law.fit_law(pings, 4095.0, LogStatistics())
+            self.assertTrue(found.is_log)
+            self.assert_within(found.scale, range_db)
 
     def test_detected_samples_are_speckle(self):
         """The largest of 14 samples has logarithms of no skewness; the beams of a lens have a bent level."""

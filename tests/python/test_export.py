@@ -268,22 +268,16 @@ class Export(tool.ToolTest):
         self.assertEqual(left_out["beds"] + len(list(self.dest.glob("train/background/*.png"))), 1)
         self.assertFalse((changes[1:] & changes[:-1]).any())
 
-    def test_yolo(self):
-        for words in ((), ("--polygons",)):
-            dest = self.export("yolo", "--sensor", "fls", *words)
-            text = (dest / "labels/train/fls-000004.txt").read_text()
-            number, *values = text.split()
-            self.assertEqual((text.count("\n"), number), (1, "0"))
-            values = np.array(values, float).reshape(-1, 2) * (WIDTH, HEIGHT)
-            mask = fan_objects(4)[1][2]
-            left, top, width, height = box_of(mask)
-            if words:   # the area of the outline by the shoelace formula is that of the mask
-                x, y = values.T
-                self.assertAlmostEqual(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)), mask.sum(), delta=0.1)
-            else:
-                np.testing.assert_allclose(values, [(left + width / 2, top + height / 2), (width, height)], atol=1e-3)
-            self.assertEqual((dest / "data.yaml").read_text(), "train: images/train\nval: images/train  # there is no "
-                             'such part\nnames:\n  0: "mine"\n  1: "tyre"\n')
+    def test_yolo_polygons(self):
+        """The area of an outline by the shoelace formula is that of the mask. Boxes: test_objects_that_no_eye_sees."""
+        dest = self.export("yolo", "--sensor", "fls", "--polygons")
+        text = (dest / "labels/train/fls-000004.txt").read_text()
+        number, *values = text.split()
+        self.assertEqual((text.count("\n"), number), (1, "0"))
+        x, y = (np.array(values, float).reshape(-1, 2) * (WIDTH, HEIGHT)).T
+        self.assertAlmostEqual(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)), fan_objects(4)[1][2].sum(), delta=0.1)
+        self.assertEqual((dest / "data.yaml").read_text(), "train: images/train\nval: images/train  # there is no "
+                         'such part\nnames:\n  0: "mine"\n  1: "tyre"\n')
 
     def test_oriented_boxes(self):
         """Of a bar that lies askew: the rectangle holds all pixels, and no direction has a smaller one."""
@@ -370,8 +364,6 @@ class Export(tool.ToolTest):
 
     def test_masks_and_webdataset(self):
         self.export("masks", "--sensor", "fls")
-        pixels = np.asarray(Image.open(self.dest / "ann_dir/train/fls-000002.png"))
-        np.testing.assert_array_equal(pixels, fan_objects(2)[1][2] + 2 * fan_objects(2)[2][2])
         self.assertEqual(json.loads((self.dest / "meta.json").read_text())["palette"], [[0, 0, 0], [128, 0, 0], [0, 128, 0]])
         self.assertEqual((self.dest / "splits/train.txt").read_text().split()[:2], ["fls-000000", "fls-000001"])
         with tarfile.open(self.export("webdataset", "--link") / "train-000000.tar") as archive:
