@@ -14,20 +14,9 @@ REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of
             "holds files that are not a sonarsim dataset", "holds files that are not variants")
 
 
-class Folder(Sandbox):
-    POSES = 60
+class TwoRuns(Sandbox):
+    FILES = {"path.csv": path_csv(60), "variants.yaml": MISSION + VARIED}
 
-    def setUp(self):
-        super().setUp()
-        self.write_all({"path.csv": path_csv(self.POSES), "variants.yaml": MISSION + VARIED})
-        self.draw = random.Random(25)
-
-    def end(self, process):
-        _, stderr = process.communicate(timeout=120)
-        return process.returncode, stderr
-
-
-class TwoRuns(Folder):
     def assert_whole(self, whole):
         """The folder holds this dataset and nothing else."""
         self.assertNotIn("is not a file of the dataset", self.succeeds("verify", "out").stderr)
@@ -38,20 +27,21 @@ class TwoRuns(Folder):
         shutil.rmtree(self.out, ignore_errors=True)
         one = self.start(*first)
         time.sleep(delay)
-        codes = []
-        for code, stderr in map(self.end, (one, self.start(*second))):
-            self.assertIn(code, (0, 2), stderr)
+        processes = one, self.start(*second)
+        for process in processes:
+            _, stderr = process.communicate(timeout=120)
+            self.assertIn(process.returncode, (0, 2), stderr)
             errors = [line for line in stderr.splitlines() if line.startswith("error:")]
-            self.assertEqual(len(errors), code // 2, stderr)
+            self.assertEqual(len(errors), process.returncode // 2, stderr)
             self.assertTrue(all(any(words in error for words in REFUSALS) for error in errors), stderr)
-            codes.append(code)
+        codes = tuple(process.returncode for process in processes)
         self.assertIn(0, codes)
-        return tuple(codes)
+        return codes
 
     def test_pairs_of_runs(self):
         """One mission twice, two missions, one that overwrites the other; two shards, shards of two divisions and of two
         missions."""
-        other, half = ("--seed", "9"), ("--shard", "1/2")
+        draw, other, half = random.Random(25), ("--seed", "9"), ("--shard", "1/2")
         for name, pairs in (("variants.yaml", (((), other), ((), (*other, "--overwrite")), (half, ("--shard", "2/2")))),
                             ("mission.yaml", (((), other), ((), ()), ((), (*other, "--overwrite")),
                                               (half, ("--shard", "2/2")), (half, half), (half, ("--shard", "2/3")),
@@ -59,7 +49,7 @@ class TwoRuns(Folder):
             wholes = [self.render_whole(*more, name=name, out="alone") for more in ((), other)]
             for first, second in pairs:
                 with self.subTest(name=name, first=first, second=second):
-                    codes = self.pair(("render", name, *first), ("render", name, *second), self.draw.uniform(0.0, 0.15))
+                    codes = self.pair(("render", name, *first), ("render", name, *second), draw.uniform(0.0, 0.15))
                     if second == other:
                         self.assertEqual(sorted(codes), [0, 2])
                     # The second may have come first, or have replaced a finished dataset.
@@ -82,9 +72,9 @@ class TwoRuns(Folder):
                 self.assert_whole(whole)
 
 
-class HeldFolder(Folder):
+class HeldFolder(Sandbox):
     """The first run is halted, so that the second comes while it is at work."""
-    POSES = 600
+    FILES = {**TwoRuns.FILES, "path.csv": path_csv(600)}
 
     def halted(self, *arguments):
         process = self.start("render", *arguments)
@@ -108,8 +98,8 @@ class HeldFolder(Folder):
         if meanwhile:
             self.succeeds(*meanwhile)
         first.send_signal(signal.SIGCONT)
-        code, stderr = self.end(first)
-        self.assertEqual(code, 0, stderr)
+        _, stderr = first.communicate(timeout=120)
+        self.assertEqual(first.returncode, 0, stderr)
         self.succeeds("verify", "out")
 
     def test_a_whole_run(self):
