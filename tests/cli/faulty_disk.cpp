@@ -40,21 +40,11 @@ Function* next(Function*, const char* name) {
 
 #define NEXT(function) next(&::function, #function)
 
-/// The open files below the folder.
-std::array<std::atomic<bool>, 4096> watched;
 std::atomic<long> calls = 0;
 
 bool is_below(const char* path) {
     return !setting("FAULTY_DISK_BELOW").empty() &&
            std::string_view(path).starts_with(setting("FAULTY_DISK_BELOW"));
-}
-
-bool is_watched(int fd) {
-    return fd >= 0 && fd < static_cast<int>(watched.size()) && watched[fd];
-}
-
-void watch(int fd, bool is_ours) {
-    if (fd >= 0 && fd < static_cast<int>(watched.size())) watched[fd] = is_ours;
 }
 
 void log(const char* call, const char* path) {
@@ -96,6 +86,10 @@ bool is_below_open(int fd) {
     return is_below(path_of(fd).c_str());
 }
 
+bool writes_below(int fd) {
+    return (fcntl(fd, F_GETFL) & O_ACCMODE) != O_RDONLY && is_below_open(fd);
+}
+
 /// The number of bytes that a write of `size` bytes takes; 0: it is interrupted, and errno is set.
 std::size_t taken(std::size_t size) {
     if (setting("FAULTY_DISK_MODE") == "short") return (size + 1) / 2;
@@ -108,7 +102,7 @@ std::size_t taken(std::size_t size) {
 template <class Write, class... Offset>
 ssize_t write_watched(const char* call, Write write, int fd, const void* bytes, std::size_t size,
                       Offset... offset) {
-    if (!is_watched(fd)) return write(fd, bytes, size, offset...);
+    if (!writes_below(fd)) return write(fd, bytes, size, offset...);
     if (fails(call, fd)) return -1;
     const std::size_t part = taken(size);
     return part == 0 && size > 0 ? -1 : write(fd, bytes, part, offset...);
@@ -123,11 +117,8 @@ int open(const char* path, int flags, ...) {
     va_start(arguments, flags);
     const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
     va_end(arguments);
-    const bool is_ours = (flags & O_ACCMODE) != O_RDONLY && is_below(path);
-    if (is_ours && fails("open", path)) return -1;
-    const int fd = NEXT(open)(path, flags, mode);
-    watch(fd, is_ours);
-    return fd;
+    if ((flags & O_ACCMODE) != O_RDONLY && is_below(path) && fails("open", path)) return -1;
+    return NEXT(open)(path, flags, mode);
 }
 
 // Streams do not fail: the test finds their names in the log, where it wants none.
@@ -148,9 +139,8 @@ ssize_t pwrite(int fd, const void* bytes, std::size_t size, off_t offset) {
 }
 
 int close(int fd) {
-    const bool failing = is_watched(fd) && fails("close", fd);
+    const bool failing = writes_below(fd) && fails("close", fd);
     const int reason = errno;
-    watch(fd, false);
     const int result = NEXT(close)(fd);
     if (!failing) return result;
     errno = reason;
@@ -166,7 +156,7 @@ int close(int fd) {
 FAILS_OR_DOES(fsync, is_below_open, fd, (int fd), fd)
 FAILS_OR_DOES(fdatasync, is_below_open, fd, (int fd), fd)
 FAILS_OR_DOES(syncfs, is_below_open, fd, (int fd) noexcept, fd)
-FAILS_OR_DOES(ftruncate, is_watched, fd, (int fd, off_t size) noexcept, fd, size)
+FAILS_OR_DOES(ftruncate, writes_below, fd, (int fd, off_t size) noexcept, fd, size)
 FAILS_OR_DOES(rename, is_below, to, (const char* from, const char* to) noexcept, from, to)
 FAILS_OR_DOES(link, is_below, to, (const char* from, const char* to) noexcept, from, to)
 FAILS_OR_DOES(mkdir, is_below, path, (const char* path, mode_t mode) noexcept, path, mode)
