@@ -86,10 +86,7 @@ class Render(Sandbox):
         for path in self.out.rglob("*"):
             if path.is_file():
                 self.assertNotIn(str(self.folder).encode(), path.read_bytes(), path)
-        other = self.folder / "deeper/other"
-        other.mkdir(parents=True)
-        for name in ("mission.yaml", "materials.csv", "box.gltf", "path.csv"):
-            shutil.copy(self.folder / name, other)
+        other = shutil.copytree(self.folder, self.folder / "deeper/other", ignore=shutil.ignore_patterns("out"))
         time.sleep(1.1)
         self.folder = other
         self.assert_renders(env={**os.environ, "HOME": "/tmp", "TZ": "UTC", "USER": "two"})
