@@ -31,13 +31,13 @@ class BadInput(tool.ToolTest):
         self.source = self.folder / "in"
         self.out.mkdir()
 
-    def refused(self, name, text, code=2, setup="", anew=False):
+    def refused(self, name, text, code=2, setup=""):
         words = [word.replace("IN", str(self.source)).replace("OUT", str(self.out)) for word in TOOLS[name][0]]
-        self.assert_refused(name, text, *words, code=code, setup=setup, anew=anew)
+        self.assert_refused(name, text, *words, code=code, setup=setup)
 
     def test_what_is_not_a_dataset(self):
         for name in TOOLS:
-            self.refused(name, "in: is not a (dataset|recording)", anew=True)
+            self.refused(name, "in: is not a (dataset|recording)")
         self.source.mkdir()
         for text, words in ((None, "in: is not a (dataset|recording)"), ("[" * 100000, "dataset.json: "),
                             ('{"format": "sonarsim dataset", "format_version": 3}', "dataset.json: ")):
@@ -55,7 +55,7 @@ class BadInput(tool.ToolTest):
     def test_a_full_disk(self):
         for name, write in (("gallery", write_dataset), ("export", test_export.write_dataset)):
             write(self.source)
-            self.refused(name, "File too large", 1, FULL_DISK, anew=True)
+            self.refused(name, "File too large", 1, FULL_DISK)
             if name == "export":    # each format names the file that the disk does not take
                 for kind, file in (("webdataset", "train-000000.tar"), ("coco", "train/.*png"), ("masks", "img_dir/.*png")):
                     self.assert_refused("export", f"e.part/{file}: File too large", self.source, "--format", kind,

@@ -18,14 +18,11 @@ sys.path.insert(0, str(PACKAGE))
 from sonarsim.export import runs    # noqa: E402
 
 
-def run(name, *words, setup="", anew=False):
-    """`python3 -m sonarsim.NAME WORDS`, after the Python of `setup`: in a fork of this process, which has loaded the libraries,
-    or `anew` in a process of its own."""
+def run(name, *words, setup=""):
+    """`python3 -m sonarsim.NAME WORDS`, after the Python of `setup`, in a fork of this process, which has loaded the
+    libraries."""
     program = (f"import runpy, sys\n{setup}\nsys.argv = {[name, *map(str, words)]!r}\n"
                f"runpy.run_module('sonarsim.{name}', run_name='__main__', alter_sys=True)")
-    if anew:
-        return subprocess.run([sys.executable, "-B", "-c", program], text=True, capture_output=True, check=False,
-                              env={**os.environ, "PYTHONPATH": str(PACKAGE)})
     with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
         fork = multiprocessing.get_context("fork").Process(target=become, args=(program, out, err))
         fork.start()
@@ -69,10 +66,10 @@ class ToolTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         return result.stdout
 
-    def assert_refused(self, name, text, *words, code=2, setup="", anew=False):
+    def assert_refused(self, name, text, *words, code=2, setup=""):
         """One sentence, the exit code, and nothing written."""
         before = sorted(self.folder.rglob("*"))
-        result = run(name, *words, setup=setup, anew=anew)
+        result = run(name, *words, setup=setup)
         self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
         self.assertRegex(result.stderr, f"^sonarsim {name.replace('_', '-')}: [^\n]*{text}[^\n]*\n$")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
