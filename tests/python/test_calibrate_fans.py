@@ -32,10 +32,6 @@ sensors:
 
 
 class Fans(ToolTest):
-    def levels(self, *settings):
-        return json.loads(self.sonarsim("preset", "start.yaml", "--json", *(
-            f"--set=sensors.sonar.instrument.receiver.{one}" for one in settings)).stdout)
-
     def render(self, preset, seed):
         """Fans of raw/, [ping, row, column]."""
         (self.folder / "made.yaml").write_text(MISSION.replace("PRESET", preset).replace("SEED", str(seed)))
@@ -60,7 +56,8 @@ class Fans(ToolTest):
         texture of the tank changes the mean by up to 18 %, and the number of held-out figures that agree."""
         scale = draws.uniform(0.35, 0.7) if law == "gamma" else draws.uniform(55.0, 70.0)
         of_law = [f"{law}={scale}", f"companding={'gamma' if law == 'gamma' else 'log'}"]
-        found = self.levels(*of_law)
+        found = json.loads(self.sonarsim("preset", "start.yaml", "--json", *(
+            f"--set=sensors.sonar.instrument.receiver.{one}" for one in of_law)).stdout)
         keys = {"noise_db": found["noise_db"] + draws.uniform(0.0, 6.0),
                 "full_scale_db": found["full_scale_db"] + draws.uniform(-6.0, 6.0),
                 "tvg_log": draws.uniform(22.0, 38.0), **dict(one.split("=") for one in of_law)}
