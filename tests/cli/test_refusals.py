@@ -40,10 +40,6 @@ def bottom(scale=1.0, z=0.0):
                 [(points, indices, material)], ("Sand",))
 
 
-def mine(half):
-    return box_gltf((half,) * 3, "Steel")
-
-
 def lone_hull():
     """A closed box of 120 m whose faces look outwards."""
     points, indices, material = box_mesh((60.0, 60.0, 60.0))
@@ -54,11 +50,6 @@ def path(z=5.0, offset=(0.0, 0.0), step=1.0):
     """From west to east over the bottom and then north, ten poses."""
     places = [(-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90) for i in range(10)]
     return csv_of(*(f"{step * i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)))
-
-
-FILES = {"mission.yaml": MISSION, "materials.csv": MATERIALS, "bottom.gltf": bottom(), "mine.gltf": mine(0.4),
-         "path.csv": path(), "quarters.png": png([[1, 2], [3, 4]]),
-         "bed.png": png([[r * c % 7 for c in range(20)] for r in range(20)])}
 
 
 def edited(*pairs, text=MISSION):
@@ -194,11 +185,11 @@ WARNED = (
     ({"bottom.gltf": bottom(0.001)} | edited("  objects:\n    - " + MINE + "\n", ""), "W04",
      "check its units (scene.units: mm"),
     (edited("range_max_m: 12", "range_max_m: 15000"), "W04", "range_max_m is in metres"),
-    ({"mine.gltf": mine(6000.0)} | mine_as(MINE.replace("0.3", "6001")), "W01", "mine.gltf is 1.2e+04 m long"),
+    ({"mine.gltf": box_gltf([6000] * 3, "Steel")} | mine_as(MINE.replace("0.3", "6001")), "W01", "mine.gltf is 1.2e+04 m long"),
     ({"materials.csv": MATERIALS.replace("7850", "7.85")}, "W01", "looks like g/cm^3"),
     ({"materials.csv": MATERIALS.replace("5900", "5.9")}, "W01", "looks like km/s"),
     ({"path.csv": path(z=-5)} | edited("\n    - " + MINE, " []"), "W10", "z points up"),
-    ({"mine.gltf": mine(3.0)} | mine_as(MINE.replace("[20, 4, 0.3]", "[4, 0, 5]")), "W11", "it is inside 'mine'"),
+    ({"mine.gltf": box_gltf([3] * 3, "Steel")} | mine_as(MINE.replace("[20, 4, 0.3]", "[4, 0, 5]")), "W11", "it is inside 'mine'"),
     ({"bottom.gltf": lone_hull()} | edited("\n    - " + MINE, " []"), "W11", "it is inside 'hull'"),
     ({"path.csv": path(z=30)}, "W13", "raise range_max_m or sail nearer"),
     ({"path.csv": path(z=95), "bottom.gltf": bottom(z=-100)}
@@ -232,10 +223,12 @@ WARNED = (
 
 
 class Mistakes(Sandbox):
-    FILES = FILES
+    FILES = {"mission.yaml": MISSION, "materials.csv": MATERIALS, "bottom.gltf": bottom(), "path.csv": path(),
+             "mine.gltf": box_gltf([0.4] * 3, "Steel"), "quarters.png": png([[1, 2], [3, 4]]),
+             "bed.png": png([[r * c % 7 for c in range(20)] for r in range(20)])}
 
     def make(self, files):
-        self.write_all({**FILES, **files})
+        self.write_all({**self.FILES, **files})
 
     def validate(self, *arguments, code):
         return self.run_sonarsim("validate", "mission.yaml", "--json", *arguments, code=code)
