@@ -130,8 +130,9 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     head.has_grid = 1;
     head.in_degrees = geo_key(keys, model_type) == geographic ? 1 : 0;
     const int system = geo_key(keys, projected_system);
-    head.epsg = system == user_defined ? 0 : static_cast<std::uint32_t>(system);
     const double unit_m = head.in_degrees != 0 ? 1.0 : metres_of_unit(keys);
+    // Products have metres, which a system in feet would misplace.
+    if (system != user_defined && unit_m == 1.0) head.epsg = static_cast<std::uint32_t>(system);
     const double column = scale.data[0];
     const double row = -scale.data[1];
     // The tie point belongs to the outer corner of its pixel, or to its centre.

@@ -13,6 +13,7 @@ MISSION = """\
 name: swath
 scene:
   materials: materials.csv
+  water_surface: {height_m: 2}
   objects:
     - {name: floor, file: floor.gltf, position_m: [0, 0, -11]}
     - {name: block, file: block.gltf, position_m: [6, -12, -9.5]}
@@ -23,7 +24,7 @@ trajectory:
   speed_m_s: 1
   rate_hz: 4
 sensors:
-  sss: {kind: sidescan, elevation_deg: 1, range_max_m: 25, range_bins: 245}
+  sss: {kind: sidescan, elevation_deg: 1, range_max_m: 25, range_bins: 245, mount: {translation_m: [-1, 0, 0]}}
 output: {folder: out, polar: false, fan: false, xtf: true, mosaic: true, full_scale: 0.5}
 """
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nSand,1400,1520\nSteel,7850,5890\n"
@@ -37,11 +38,12 @@ def read_xtf(data):
         magic, kind, channels, size, *time, day = struct.unpack_from("<HBxHxxxxIHBBBBBBH", data, at)
         assert (magic, kind, channels, size % 64) == (0xFACE, 0, 2, 0)
         ping = {"time": time, "day": day, "number": struct.unpack_from("<I", data, at + 28)[0],
+                "ship": struct.unpack_from("<f4xdd8xf", data, at + 120),
                 "place": struct.unpack_from("<f124xdd16xff4xfff", data, at + 32), "sides": []}
         side = at + 256
         for _ in range(channels):
             count, = struct.unpack_from("<I", data, side + 42)
-            ping["sides"].append((*struct.unpack_from("<H2xff4xf", data, side),
+            ping["sides"].append((*struct.unpack_from("<H2xff4xff", data, side),
                                   struct.unpack_from(f"<{count}H", data, side + 64)))
             side += 64 + 2 * count
         pings.append(ping)
@@ -64,11 +66,12 @@ class SwathFiles(Rendered):
             # A quarter of a second and of a metre from ping to ping, from 1970 on, along x: east.
             self.assertEqual((ping["time"], ping["day"]), ([1970, 1, 1, 0, 0, k // 4, 25 * (k % 4)], 1))
             half_speed, y, x, depth, altitude, pitch, roll, heading = ping["place"]
-            self.assert_near((x, y, depth, pitch, roll), (-5 + 0.25 * k, 0, 0, 0, 0))
+            self.assert_near((x, y, depth, pitch, roll), (-6 + 0.25 * k, 0, 2, 0, 0))
+            self.assert_near(ping["ship"], (3.6 / 1.852, 0, -5 + 0.25 * k, 3.6 / 1.852), 1e-6)   # 1 m/s in knots
             self.assert_near((heading, half_speed), (90, 740), 1e-3)
             self.assertAlmostEqual(altitude, 10, delta=0.2)
-            for side, (number, slant_m, ground_m, duration_s, samples) in enumerate(ping["sides"]):
-                self.assertEqual((number, slant_m), (side, 25))
+            for side, (number, slant_m, ground_m, duration_s, interval_s, samples) in enumerate(ping["sides"]):
+                self.assertEqual((number, slant_m, interval_s), (side, 25, 0.25))
                 self.assert_near((ground_m, 1000 * duration_s), (math.sqrt(25**2 - altitude**2), 2000 * 25 / 1480), 1e-3)
                 # 24.5 m in 245 bins, and one blank one before. Nothing echoes before the bottom does: port ends at
                 # nadir, starboard begins there.
@@ -77,7 +80,7 @@ class SwathFiles(Rendered):
                 self.assertEqual(max(outwards[:90]), 0)
                 self.assertGreater(max(outwards[110:]), 0)
         # The block is to starboard, 11.5 m off track and 9 to 10 m below, where x is 6.
-        port, starboard = (side[-1] for side in pings[44]["sides"])
+        port, starboard = (side[-1] for side in pings[48]["sides"])
         self.assertAlmostEqual((starboard.index(max(starboard)) + 0.5) * 0.1, math.hypot(11.5, 9), delta=1.0)
         self.assertGreater(max(starboard), 3 * max(port))
 
@@ -97,7 +100,7 @@ class SwathFiles(Rendered):
         _, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
         for ping in pings:
             self.assert_near(ping["place"][-3:], (0, 10, 270), 1e-4)
-        port, starboard = (side[-1] for side in pings[44]["sides"])
+        port, starboard = (side[-1] for side in pings[48]["sides"])
         self.assertGreater(max(port), 3 * max(starboard))
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")

@@ -169,7 +169,8 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
     // Half edges along and across the line of sight, in bins so long that nothing is cut. Along,
     // range is linear: 5 -+ 0.2. Across it is sqrt(25 + s^2), which reaches from 5 to 5 + 0.3^2
     // / 10.
-    const Material material{.reflection = 0.25F};
+    Material material;
+    material.reflection = 0.25F;
     for (const float along : {0.0F, 0.2F}) {
         for (const float across : {0.0F, 0.3F}) {
             Sample sample = patch_of({5, 0, 0}, {-1, 0, 0}, {along, 0, 0}, {0, across, 0});

@@ -99,11 +99,14 @@ std::string xtf_record(const XtfFile& file, const XtfPing& ping,
     put(record, 28, ping.number);
     put_float(record, 32, ping.sound_speed_m_s / 2.0);  // XTF has half the speed, for two-way time
     put_float(record, 72, ping.sound_speed_m_s);
+    const double knots = ping.speed_m_s * 3600.0 / 1852.0;
+    put_float(record, 120, knots);
     put_float(record, 124, ping.heading_deg);
-    put(record, 128, ping.y_m);
-    put(record, 136, ping.x_m);
-    put(record, 160, ping.y_m);
-    put(record, 168, ping.x_m);
+    put(record, 128, ping.ship_m.y());
+    put(record, 136, ping.ship_m.x());
+    put_float(record, 152, knots);
+    put(record, 160, ping.sensor_m.y());
+    put(record, 168, ping.sensor_m.x());
     put_float(record, 192, ping.depth_m);
     put_float(record, 196, ping.altitude_m);
     put_float(record, 204, ping.pitch_deg);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,9 +22,10 @@ struct XtfFile {
 struct XtfPing {
     std::uint32_t number = 0;
     double t_s = 0.0;  ///< since 1970
-    double x_m = 0.0;
-    double y_m = 0.0;
-    double depth_m = 0.0;      ///< depth below z = 0
+    Eigen::Vector2d ship_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sensor_m = Eigen::Vector2d::Zero();
+    double speed_m_s = 0.0;    ///< over ground
+    double depth_m = 0.0;      ///< depth below the water's surface
     double altitude_m = 0.0;   ///< 0: the bottom is not seen
     double heading_deg = 0.0;  ///< clockwise from y
     double pitch_deg = 0.0;    ///< bow up

@@ -45,23 +45,43 @@ std::optional<double> crossing_of_neighbours(const Ping& ping, int beam,
     return first + bin;
 }
 
-/// Range and quality of one beam. `values` are those of the beam, divided by its background.
+/// The share of a run in the calibrated model that neither side lobes nor the background explains.
+/// `strongest` has the greatest value of all beams in each bin.
+double unexplained_share(const Ping& ping, int beam, const DetectedReturn& run,
+                         std::span<const double> values, std::span<const float> strongest) {
+    constexpr double side_lobe = 0.003;  // of the echo in another beam
+    constexpr double background = 4.0;  // that of water rises under the TVG
+    double own = 0.0;
+    double other = 0.0;
+    double above = 0.0;  // the background
+    for (int i = run.begin; i < run.end; ++i) {
+        own += ping.at(i, beam);
+        other += strongest[i];
+        above += values[i];
+    }
+    return std::max(0.0, 1.0 - side_lobe * other / own) *
+           std::max(0.0, 1.0 - background * (run.end - run.begin) / above);
+}
+
+/// Range and quality of one beam. `values` are those of the beam, divided by its background;
+/// `strongest` as above.
 Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
-                          std::span<const double> values) {
+                          std::span<const double> values, std::span<const float> strongest) {
     if (std::ranges::none_of(values, [](double value) { return value > 0.0; })) return {};
     DetectedReturn run = detect_return(values);
     if (run.begin == run.end) run = {0, static_cast<int>(values.size()), 1.0, 1.0};  // all alike
+    const double rival = run.rival / run.contrast;
     Sounding sounding;
+    sounding.quality = std::max(0.0, 1.0 - rival * rival);
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
     if (sonar.config.model == ModelKind::calibrated) {
+        sounding.quality *= unexplained_share(ping, beam, run, values, strongest);
         if (const auto at = crossing_of_neighbours(ping, beam, run)) {
             const auto bin = static_cast<std::size_t>(*at);
             sounding.range_m = std::lerp(sonar.range_edges_m[bin], sonar.range_edges_m[bin + 1],
                                          *at - static_cast<double>(bin));
         }
     }
-    const double rival = run.rival / run.contrast;
-    sounding.quality = std::max(0.0, 1.0 - rival * rival);
     return sounding;
 }
 
@@ -80,20 +100,6 @@ void divide_by_background(std::span<double> beam, std::span<const float> noise) 
     const double constant = std::max(*middle, min_power);
     for (std::size_t i = 0; i < beam.size(); ++i)
         beam[i] /= constant + noise[i];
-}
-
-/// The place that a beam measures at a range, in the frame at reception. The fan transmits at
-/// elevation 0 in the frame at transmission, which a fan that moves has left since.
-Eigen::Vector3d on_axis(const PingMotion& motion, ViewShape shape, double azimuth_rad,
-                        double range_m) {
-    Eigen::Vector3d place = range_m * direction_of(azimuth_rad, 0.0);
-    if (motion.is_still()) return place;
-    double elevation_rad = 0.0;
-    for (int k = 0; k < 3; ++k) {  // each step reduces the error about a hundredfold
-        elevation_rad -= unmoved_place(motion, shape, place).z() / range_m;
-        place = range_m * direction_of(azimuth_rad, elevation_rad);
-    }
-    return place;
 }
 
 class Contrast {
@@ -169,20 +175,23 @@ int beams_with_sounding(const Ping& ping) {
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
-    const ViewShape shape = sonar.settings.view.shape;
-    const TruePlaces places{T_world_sensor, sonar.sound_profile.get(), motion, shape};
+    const TruePlaces places{T_world_sensor, sonar.sound_profile.get(), motion,
+                            sonar.settings.view.shape};
     const std::span<const float> growth = sonar.settings.model->info.noise_growth;
     const std::span<const float> noise = sonar.settings.model->info.mean_noise;
     std::vector<Sounding> soundings(ping.beams);
+    std::vector<float> strongest;
+    for (auto row = ping.intensity.begin(); row != ping.intensity.end(); row += ping.beams)
+        strongest.push_back(*std::max_element(row, row + ping.beams));
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 0; i < ping.range_bins; ++i)
             beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
         if (!noise.empty()) divide_by_background(beam, noise);
-        soundings[j] = sounding_of_beam(sonar, ping, j, beam);
+        soundings[j] = sounding_of_beam(sonar, ping, j, beam, strongest);
         if (std::isnan(soundings[j].range_m)) continue;
-        const double azimuth = sonar.beam_azimuths_rad[j];
-        soundings[j].position = places.of(on_axis(motion, shape, azimuth, soundings[j].range_m));
+        soundings[j].position =
+            places.of(soundings[j].range_m * direction_of(sonar.beam_azimuths_rad[j], 0.0));
     }
     return soundings;
 }

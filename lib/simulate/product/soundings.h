@@ -17,7 +17,9 @@ struct Sounding {
     double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: the beam is dark
     Eigen::Vector3d position = Eigen::Vector3d::Constant(range_m);  ///< world, m
     /// 1 - (c / C)^2, where C is the contrast of the return and c the greatest contrast elsewhere
-    /// in the beam. 1 for one surface without noise; below 0.5 it may be noise alone.
+    /// in the beam. 1 for one surface without noise; below 0.5 it may be noise alone. In the
+    /// calibrated model times 1 - 0.003 s and 1 - 4 / b, where the strongest beam has s times, and
+    /// the background 1 / b of, the power of the return.
     double quality = 0.0;
 };
 
@@ -30,7 +32,7 @@ int beams_with_sounding(const Ping& ping);
 /// uniform. The range is the middle of its detect_return(); in the calibrated model, over oblique
 /// ground, the place near it where both neighbouring beams are equally strong. The position lies on
 /// the beam's axis, at elevation 0, by the water's profile of sound speed. If the sonar moves, the
-/// axis is that at reception. `T_world_vehicle` is the pose of transmission.
+/// azimuth is that at reception. `T_world_vehicle` is the pose of transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
 

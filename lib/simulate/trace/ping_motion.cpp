@@ -19,10 +19,26 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
     return {half.cos, axis.x(), axis.y(), axis.z()};
 }
 
+/// True if reception measures the azimuth alone (measured_place()); otherwise the pose half way
+/// between transmission and reception measures the direction.
+bool measures_azimuth(const PingMotion& motion, ViewShape shape) {
+    return shape == ViewShape::fan && motion.measures_direction;
+}
+
 /// The moment whose frame measures directions, as a share of the two-way time.
 double reception_share(const PingMotion& motion, ViewShape shape) {
-    return shape == ViewShape::fan && motion.measures_direction ? 1.0 : 0.5;
+    return measures_azimuth(motion, shape) ? 1.0 : 0.5;
 }
+
+double elevation_of(const Eigen::Vector3d& v) {
+    return arctan2(v.z(), v.head<2>().norm());
+}
+
+/// Places in the frame that measures directions, before and after the elevation is that at
+/// transmission.
+struct MovedPlace {
+    Eigen::Vector3d turned, measured;
+};
 
 /// The time of sound to a place and back to the moving sonar: the greater root of |p - v t| = c t -
 /// |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
@@ -32,25 +48,53 @@ double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
     return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
 }
 
+MovedPlace moved_place(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& place) {
+    const double time = two_way_time(motion, place);
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
+                                       (place - moving * motion.velocity_m_s);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
+    const Eigen::Vector3d turned = range * from_there.normalized();
+    if (!measures_azimuth(motion, shape)) return {turned, turned};
+    const double azimuth = arctan2(turned.y(), turned.x());
+    return {turned, range * direction_of(azimuth, elevation_of(place))};
+}
+
 /// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
 /// time by 2 / c for each metre; in this time a sonar moves by thousandths of a metre and turns by
 /// less than 1e-3.
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
-    const double time = two_way_time(motion, place);
-    const double moving = reception_share(motion, shape) * time;
-    const Eigen::Matrix3d to_there =
-        rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
-    const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
-    const double range = 0.5 * motion.sound_speed_m_s * time;
-    const Eigen::Matrix3f turn = to_there.cast<float>();
+    const auto [turned, measured] = moved_place(motion, shape, place);
+    const double moving = reception_share(motion, shape) * two_way_time(motion, place);
+    const Eigen::Matrix3f turn = (Eigen::Quaterniond::FromTwoVectors(turned, measured) *
+                                  rotation_by(moving * motion.turn_rad_s).conjugate())
+                                     .toRotationMatrix()
+                                     .cast<float>();
     Sample out = sample;
-    out.position = (range / from_there.norm() * from_there).cast<float>();
+    out.position = measured.cast<float>();
     out.edge_u = turn * sample.edge_u;
     out.edge_v = turn * sample.edge_v;
     out.normal = turn * sample.normal;
-    out.height_m *= static_cast<float>(range / place.norm());
+    out.height_m *= static_cast<float>(measured.norm() / place.norm());
     return out;
+}
+
+/// The place that is `measured` in the frame that measures directions.
+Eigen::Vector3d unturned_place(const PingMotion& motion, ViewShape shape,
+                               const Eigen::Vector3d& measured) {
+    // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
+    // transmission. Its two-way time must be that of the measured range. Newton's steps in l use
+    // the derivative 2 / c of a sonar at rest. Its relative error is the ratio of the speeds of
+    // sonar and sound, so each step reduces the error of l about a thousandfold.
+    double length = measured.norm();
+    const double time = 2.0 * length / motion.sound_speed_m_s;
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
+    const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    for (int k = 0; k < 4; ++k)
+        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
+    return s + length * d;
 }
 
 /// The azimuth of a point, in beams from the first border of a fan.
@@ -140,28 +184,21 @@ Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double lat
 
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place) {
-    const double time = two_way_time(motion, place);
-    const double moving = reception_share(motion, shape) * time;
-    const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
-                                       (place - moving * motion.velocity_m_s);
-    const double range = 0.5 * motion.sound_speed_m_s * time;
-    return range * from_there.normalized();
+    return moved_place(motion, shape, place).measured;
 }
 
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured) {
-    // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
-    // transmission. Its two-way time must be that of the measured range. Newton's steps in l use
-    // the derivative 2 / c of a sonar at rest. Its relative error is the ratio of the speeds of
-    // sonar and sound, so each step reduces the error of l about a thousandfold.
-    double length = measured.norm();
-    const double time = 2.0 * length / motion.sound_speed_m_s;
-    const double moving = reception_share(motion, shape) * time;
-    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
-    const Eigen::Vector3d s = moving * motion.velocity_m_s;
-    for (int k = 0; k < 4; ++k)
-        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
-    return s + length * d;
+    if (!measures_azimuth(motion, shape)) return unturned_place(motion, shape, measured);
+    const double range = measured.norm();
+    const double azimuth = arctan2(measured.y(), measured.x());
+    double elevation = elevation_of(measured);  // at reception
+    Eigen::Vector3d place;
+    for (int k = 0; k < 6; ++k) {  // each step reduces the error about a hundredfold
+        place = unturned_place(motion, shape, range * direction_of(azimuth, elevation));
+        elevation += elevation_of(measured) - elevation_of(place);
+    }
+    return place;
 }
 
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples) {

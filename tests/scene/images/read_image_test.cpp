@@ -116,8 +116,9 @@ TEST_CASE("a tie point belongs to the corner of a pixel, or to its centre") {
 TEST_CASE("feet become metres, degrees are reported, a map that is turned is refused") {
     if (!has_gdal()) return;
     const NumberedMap map(0.25);
-    const auto feet = read_image(map.translated("-a_srs EPSG:2263"));
-    CHECK(feet.grid->column_m == approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
+    const auto in_feet = map.translated("-a_srs EPSG:2263");
+    CHECK(read_image(in_feet).grid->column_m == approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
+    CHECK(epsg_of(in_feet) == 0);
     const auto degrees = read_image(map.translated("-a_srs EPSG:4326"));
     CHECK(degrees.in_degrees);
     CHECK(degrees.grid->column_m == 0.25);

@@ -48,22 +48,31 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
     const SonarConfig& config = context.sonar().config;
     const Trajectory& trajectory = context.assembly.trajectory;
     const Rpy attitude = body_attitude(row.T_world_sensor);
-    const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
     const Eigen::Vector3d& position = row.T_world_sensor.translation;
-    const Eigen::Vector2d on_map = map_origin(context.mission) + position.head<2>();
-    return {.number = row.pose,
-            .t_s = trajectory[row.pose].t_s,
-            .x_m = on_map.x(),
-            .y_m = on_map.y(),
-            .depth_m = -position.z(),
-            .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
-            .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
-            .pitch_deg = -degrees(attitude.pitch),
-            .roll_deg = degrees(attitude.roll),
-            .sound_speed_m_s = context.mission.water.sound_speed_m_s,
-            .range_max_m = config.range_max_m,
-            .seconds_per_ping =
-                next < trajectory.size() ? trajectory[next].t_s - trajectory[row.pose].t_s : 0.0};
+    const auto place_of = [&](const TimedPose& pose) -> Eigen::Vector2d {
+        return map_origin(context.mission) + pose.T_world_vehicle.translation.head<2>();
+    };
+    // The last ping has the interval before it.
+    const auto every = static_cast<std::size_t>(config.every);
+    const bool is_last = row.pose + every >= trajectory.size();
+    const TimedPose& from = trajectory[is_last && row.pose >= every ? row.pose - every : row.pose];
+    const TimedPose& to = trajectory[is_last ? row.pose : row.pose + every];
+    const double interval_s = to.t_s - from.t_s;
+    const auto& surface = context.mission.scene.water_surface;
+    return {
+        .number = row.pose,
+        .t_s = trajectory[row.pose].t_s,
+        .ship_m = place_of(trajectory[row.pose]),
+        .sensor_m = map_origin(context.mission) + position.head<2>(),
+        .speed_m_s = interval_s > 0.0 ? (place_of(to) - place_of(from)).norm() / interval_s : 0.0,
+        .depth_m = (surface ? surface->height_m : 0.0) - position.z(),
+        .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
+        .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
+        .pitch_deg = -degrees(attitude.pitch),
+        .roll_deg = degrees(attitude.roll),
+        .sound_speed_m_s = context.mission.water.sound_speed_m_s,
+        .range_max_m = config.range_max_m,
+        .seconds_per_ping = interval_s};
 }
 
 /// The sonar as an XTF file describes it. In the paper's model a side receives all of its sector.
