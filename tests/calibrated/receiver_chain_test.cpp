@@ -186,7 +186,7 @@ TEST_CASE("reverberation: a tail has its share of the energy, and falls by 60 dB
     constexpr double time_s = 0.02;  // 300 bins of 67 us
     EchoGrid grid(2000, 1);
     grid.column(0)[2 * 10] = 1.0F;
-    add_reverberation(tail_of(-20.0, time_s), PowerForm::power, {1, 2}, grid);
+    add_reverberation(tail_of(-20.0, time_s), grid, PowerForm::power, 1.0F, {1, 2}, grid);
     const auto at = [&](int row) { return static_cast<double>(grid.column(0)[2 * row]); };
     double energy = 0.0;
     for (int row = 11; row < 2000; ++row)
@@ -203,7 +203,7 @@ TEST_CASE("reverberation: amplitudes of a tail have its power and are drawn for 
         EchoGrid grid(64, 400);
         for (int c = 0; c < grid.columns(); ++c)
             grid.column(c)[0] = 1.0F;
-        add_reverberation(tail_of(-10.0, 0.05), PowerForm::amplitude, {ping, 7}, grid);
+        add_reverberation(tail_of(-10.0, 0.05), grid, PowerForm::amplitude, 1.0F, {ping, 7}, grid);
         for (int c = 0; c < grid.columns(); ++c) {
             for (int row = 1; row < 64; ++row) {
                 const double re = grid.column(c)[2 * row];
@@ -217,6 +217,34 @@ TEST_CASE("reverberation: amplitudes of a tail have its power and are drawn for 
     // 25,200 exponential powers: 4.5 standard errors, which their decay raises a little.
     CHECK(std::fabs(mean(powers[0]) / expected - 1.0) < 4.5 * 1.2 / std::sqrt(25200.0));
     CHECK(powers[0] != powers[1]);
+}
+
+// A plate has its echo in few bins, and 200 bins of tail in 20 beams: 4,000 exponential draws.
+TEST_CASE("reverberation: the tails of all speckle have their share of the energy") {
+    const View view{radians(60.0), radians(20.0), 4.0, 24.0, 400, 60};
+    Samples plate;
+    plate.items = {plate_ahead(8.0, 3.0)};
+    const auto energy = [&](SpeckleMode mode, double reverberation_s) {
+        InstrumentConfig config = bare({});
+        config.speckle.mode = mode;
+        config.receiver.reverberation_s = reverberation_s;
+        config.receiver.reverberation_db = -3.0103;
+        const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 60));
+        double sum = 0.0;
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            const auto image =
+                image_of_samples(model, view, plate, {.random = 1}, {}, {seed, 2, 0});
+            sum += total(std::span<const float>(image));
+        }
+        return sum;
+    };
+    for (const SpeckleMode mode : {SpeckleMode::none, SpeckleMode::ping, SpeckleMode::scene}) {
+        CAPTURE(static_cast<int>(mode));
+        // Scatterers at one range have the level of their place between two bins.
+        const double echo = energy(mode == SpeckleMode::scene ? mode : SpeckleMode::none, 0.0);
+        const double tail = energy(mode, 0.02) - energy(mode, 0.0);
+        CHECK(tail / echo == approx(0.5).epsilon(0.03));
+    }
 }
 
 TEST_CASE("detected sample: one sample stays, and several keep the mean") {

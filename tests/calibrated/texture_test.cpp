@@ -30,7 +30,7 @@ Eigen::ArrayX2d decibels(const std::vector<Eigen::Vector2d>& places) {
             pieces.material[k] = k;
             power[k] = 1.0F;
         }
-        texture.apply(pieces, sonar, key, power);
+        texture.apply({}, pieces, sonar, {}, key, power);
         for (const int k : {0, 1})
             out(n, k) = 10.0 * std::log10(static_cast<double>(power[k]));
     }

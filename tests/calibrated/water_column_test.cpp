@@ -54,6 +54,13 @@ TEST_CASE("water: the level in an echosounder, at every range") {
     const CalibratedModel model = sounder(SpeckleMode::none);
     const double ka = piston_scale(radians(7.0));
     CHECK(greatest_error_db(model, view, [&](int, double) { return 5.78 / (ka * ka); }) < 0.05);
+    // A beam that is narrow for the cone.
+    const View wide = view_of(ViewShape::cone, 80.0, 80.0, 1);
+    const InstrumentConfig narrow = instrument_of(Aperture::piston, 1.0);
+    const CalibratedModel fine = calibrated_model(narrow, scattering_water(), wide, {});
+    const double narrow_ka = piston_scale(radians(1.0));
+    CHECK(greatest_error_db(fine, wide,
+                            [&](int, double) { return 5.78 / (narrow_ka * narrow_ka); }) < 0.1);
 }
 
 // A fan whose pattern is constant over E of elevation. The beam at the sine u is a cone; about
@@ -102,6 +109,12 @@ TEST_CASE("water: the level in a scanning sonar") {
     const LineArray array = line_array(radians(2.0), config.beam.side_lobe_db);
     const double psi = radians(20.0) * 2.0 / 3.0 / array.wavelengths;
     CHECK(greatest_error_db(model, view, [&](int, double) { return psi; }) < 0.05);
+    InstrumentConfig narrow = config;
+    narrow.beam.width_deg = 0.3;
+    const CalibratedModel fine = calibrated_model(narrow, scattering_water(), view, {});
+    const LineArray longer = line_array(radians(0.3), narrow.beam.side_lobe_db);
+    const double less = radians(20.0) * 2.0 / 3.0 / longer.wavelengths;
+    CHECK(greatest_error_db(fine, view, [&](int, double) { return less; }) < 0.05);
 }
 
 // Bins 4 apart, two resolutions, hardly overlap. 45 of them in each of 60 pings: the mean of

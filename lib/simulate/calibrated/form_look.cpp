@@ -29,6 +29,8 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
+          places_{traced.T_world_sensor, context.scene.sound_profile.get(), traced.motion,
+                  context.view.shape},
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           form_(speckle_ == SpeckleMode::none ? PowerForm::power : PowerForm::amplitude),
           samples_(traced.samples.items, form_ == PowerForm::power),
@@ -39,7 +41,8 @@ class ImageFormer {
     /// Fills the image. Numbers in the comments are sections of docs/calibrated.md.
     void form(std::span<float> mean_image) {
         EchoGrid grid(model_.equation.rows, beams_.columns());
-        if (!mean_image.empty()) mean_ = std::make_unique<EchoGrid>(grid);
+        const bool has_tails = form_ == PowerForm::amplitude && model_.reverberation.share > 0.0F;
+        if (!mean_image.empty() || has_tails) mean_ = std::make_unique<EchoGrid>(grid);
 
         // 1. The sonar equation: powers or, with `speckle: scene`, amplitudes of scatterers.
         if (context_.terms.direct) add_samples(grid);
@@ -57,17 +60,19 @@ class ImageFormer {
 
         // 4. Pulse and beams. 5. The receiver's noise and its gain.
         receive(form_, context_.terms.random > 1, grid, ping_.intensity);
-        if (mean_) receive(PowerForm::power, false, *mean_, mean_image);
+        if (!mean_image.empty()) receive(PowerForm::power, false, *mean_, mean_image);
     }
 
   private:
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
-        add_reverberation(model_.reverberation, form,
+        // Cells of amplitudes share scatterers with their neighbours, so the tails are of powers.
+        add_reverberation(model_.reverberation, powers ? grid : *mean_, form,
+                          powers ? 1.0F : speckle_gain_,
                           context_.draws.of(stream_named("reverberation")), grid);
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
-        beams_.form(grid, powers, noisy, context_.draws.of(Stream::receiver_noise), model_.row_gain,
-                    image);
+        beams_.form(grid, powers, noisy, context_.draws.received(Stream::receiver_noise),
+                    model_.row_gain, image);
     }
 
     void count_occupied(const EchoGrid& grid) {
@@ -135,7 +140,11 @@ class ImageFormer {
         ping_.counts.out_of_range += beams_.find_columns(pieces, echoes_);
         if (!is_surface) return;
         strengths_.apply(samples, pieces, limits, echoes_.power);
-        model_.texture.apply(pieces, sonar_, scene_draws_, echoes_.power);
+        add_texture(samples, pieces);
+    }
+
+    void add_texture(std::span<const Sample> samples, const PatchBlock& pieces) {
+        model_.texture.apply(samples, pieces, sonar_, places_, scene_draws_, echoes_.power);
     }
 
     /// Without what comes from below sea beds.
@@ -203,8 +212,8 @@ class ImageFormer {
             if (kind.phase != PhaseSource::own) continue;
             const std::span<const Sample> samples = samples_.of(kind.kind);
             if (samples.empty()) continue;
-            add_points(kind.kind == SampleKind::target ? joined(samples) : points_of(kind, samples),
-                       grid);
+            const bool target = kind.kind == SampleKind::target;
+            add_points(target ? joined(samples) : points_of(kind, samples), target, grid);
             if (!mean_) continue;
             const PingCounts counted = ping_.counts;
             add_pieces(kind.kind, samples, model_.limits, *mean_);
@@ -236,12 +245,17 @@ class ImageFormer {
     }
 
     /// Adds the amplitudes of points. The phase of the path follows from the range.
-    void add_points(const PointScatterers& scatterers, EchoGrid& grid) {
+    void add_points(const PointScatterers& scatterers, bool have_texture, EchoGrid& grid) {
         Amplitudes amplitudes;
         const double turns_per_m = 2.0 / model_.wavelength_m;
         PatchBlock block;
         subdivide(std::span(scatterers.points), {}, {}, block, [&](PatchBlock& points) {
             find(SampleKind::particle, scatterers.points, points, nullptr);
+            if (have_texture) {
+                for (int k = 0; k < points.count; ++k)
+                    points.material[k] = scatterers.points[points.sample[k]].material;
+                add_texture(scatterers.points, points);
+            }
             for (int k = 0; k < points.count; ++k) {
                 const double way = turns_per_m * static_cast<double>(echoes_.range_m[k]);
                 const auto turns = static_cast<float>(way - std::floor(way));
@@ -263,6 +277,7 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
+    TruePlaces places_;
     SpeckleMode speckle_;
     PowerForm form_;         ///< the form of the grid
     SamplesByKind samples_;  ///< without phases, targets are surface like any other

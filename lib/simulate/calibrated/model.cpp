@@ -167,6 +167,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     for (std::size_t i = 0; i < model.row_gain.size(); ++i) {
         const auto power = static_cast<float>(row_noise[i]);
         model.noise_values.push_back(std::min(model.row_gain[i] * power, max_value));
+        model.analog_noise_values.push_back(
+            std::min(model.row_gain[i] * static_cast<float>(noise), max_value));
     }
     if (beam.aperture == Aperture::line) {
         model.beams =
@@ -186,8 +188,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                                                      beam.lobe_floor_db)};
     View guarded = view;
     guarded.guards = model.info.guard_beams;
-    model.water = water_column(water_of(water, instrument), instrument.frequency_hz, guarded,
-                               *model.beams, model.equation);
+    model.water = water_column(water_of(water, instrument), instrument, guarded, *model.beams,
+                               model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
@@ -211,7 +213,7 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
                          .pulse_bins = amplitude_taps.reach + 1,
                          .rows = context.view.range_bins,
                          .beams = context.view.beams,
-                         .noise = noise_values};
+                         .noise = analog_noise_values};
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
         if (context.terms.random > 1)

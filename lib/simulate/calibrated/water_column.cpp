@@ -51,10 +51,13 @@ double form_function(double x) {
 // Columns of a line array's grid are joined to channels of about this sine, one degree.
 constexpr double channel_sine = 0.018;
 
-// Directions in a cone lie on rings, those of other views in rows of elevation.
-constexpr int rings = 128;
+// Directions in a cone lie on rings, those of other views in rows of elevation. Of beams that are
+// narrow for the view a quarter of the width lies between them.
+constexpr int min_rings = 128;
+constexpr int max_rings = 1 << 14;
 constexpr int ring_turns = 8;
 constexpr double row_rad = radians(1.0);
+constexpr double share_of_width = 0.25;
 constexpr int min_steps = 16;
 // The pattern of a side-scan sonar along the track is in row_power.
 constexpr int rows_of_sides = 4;
@@ -63,8 +66,15 @@ int steps_over(double extent, double step) {
     return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
 }
 
+/// Rings of equal solid angle: the radius of the first is half the opening over their root.
+int rings_of(const View& view, const BeamConfig& beam) {
+    const double first_rad = share_of_width * radians(beam.width_deg);
+    const double firsts = 0.5 * view.elevation_rad / first_rad;
+    return static_cast<int>(std::clamp<double>(std::ceil(firsts * firsts), min_rings, max_rings));
+}
+
 /// The directions in which surface is traced, at most `step_rad` of azimuth apart.
-EqualDirections traced_directions(const View& view, double step_rad) {
+EqualDirections traced_directions(const View& view, const BeamConfig& beam, double step_rad) {
     // Equal steps of the sine to the plane across an axis, and of the turn about that axis, have
     // equal solid angles. The axis is x in a cone, else z.
     const bool cone = view.shape == ViewShape::cone;
@@ -73,8 +83,11 @@ EqualDirections traced_directions(const View& view, double step_rad) {
     const double first = cone ? half.cos : -half.sin;
     const double last = cone ? 1.0 : half.sin;
     const double turn = cone ? 2.0 * pi : std::min(wide.azimuth_rad, 2.0 * pi);
-    int rows = steps_over(wide.elevation_rad, row_rad);
-    if (cone) rows = rings;
+    const double width_rad = radians(beam.elevation_width_deg);
+    int rows =
+        steps_over(wide.elevation_rad,
+                   width_rad > 0.0 ? std::min(row_rad, share_of_width * width_rad) : row_rad);
+    if (cone) rows = rings_of(view, beam);
     if (view.shape == ViewShape::port_starboard) rows = rows_of_sides;
     const int columns = cone ? ring_turns : steps_over(turn, step_rad);
     const GuardedField field(view);
@@ -119,10 +132,10 @@ double volume_strength(const WaterConfig& water, double frequency_hz) {
     return content.strength + suspended_strength(content.suspended_mg_l, grain_um, wavenumber);
 }
 
-std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
-                                        const View& view, const Beams& beams,
-                                        const SonarEquation& equation) {
-    const double strength = volume_strength(water, frequency_hz);
+std::optional<WaterColumn> water_column(const WaterConfig& water,
+                                        const InstrumentConfig& instrument, const View& view,
+                                        const Beams& beams, const SonarEquation& equation) {
+    const double strength = volume_strength(water, instrument.frequency_hz);
     if (strength == 0.0 && water.layers.empty()) return std::nullopt;
     WaterColumn out;
     if (strength > 0.0)
@@ -135,11 +148,13 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
              .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
     }
     double step_rad = 0.5 * row_rad;
+    if (instrument.beam.aperture == Aperture::head)
+        step_rad = std::min(step_rad, share_of_width * radians(instrument.beam.width_deg));
     if (const SineGrid* const sines = beams.sines()) {
         out.joined_columns = std::max(static_cast<int>(channel_sine / sines->step), 1);
         step_rad = 0.5 * out.joined_columns * sines->step;
     }
-    out.directions = traced_directions(view, step_rad);
+    out.directions = traced_directions(view, instrument.beam, step_rad);
     const int padded = (equation.rows + lanes - 1) / lanes * lanes;
     out.row_power.resize(padded);
     for (int row = 0; row < equation.rows; ++row) {

@@ -52,8 +52,8 @@ struct WaterColumn {
 };
 
 /// Nothing if no water scatters. `water`: from water_of(). `view`: with a bin for each sample.
-std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
-                                        const View& view, const Beams& beams,
-                                        const SonarEquation& equation);
+std::optional<WaterColumn> water_column(const WaterConfig& water,
+                                        const InstrumentConfig& instrument, const View& view,
+                                        const Beams& beams, const SonarEquation& equation);
 
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -278,6 +279,11 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
             label_group(traced.group(group), settings, scene, objects, engine, request);
         for (int beam = 0; beam < labels.beams; ++beam) {
             if (traced.transmits(group, beam)) copy_beam(later, beam, request, labels);
+        }
+        // Of an object that several groups see, the first counts.
+        for (std::size_t k = 0; k < labels.visible_share.size(); ++k) {
+            if (std::isnan(labels.visible_share[k]))
+                labels.visible_share[k] = later.visible_share[k];
         }
     }
     return labels;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -8,9 +9,33 @@ namespace sonarsim {
 
 MaskFrame frame_of(const View& view, const ResolutionCell& cell) {
     const bool is_fan = view.shape == ViewShape::fan;
-    return {view.beams, view.range_bins, cell, is_fan ? view.azimuth_rad / view.beams : 0.0,
-            is_fan ? view.range_min_m / view.bin_m() : 0.0};
+    return {view.beams,
+            view.range_bins,
+            cell,
+            is_fan ? view.azimuth_rad / view.beams : 0.0,
+            is_fan ? view.range_min_m / view.bin_m() : 0.0,
+            is_full_turn(view)};
 }
+
+namespace {
+
+/// Counts the lines of an object on both sides of a full turn's seam on over it: they begin behind
+/// the largest gap.
+void unwrap(const MaskFrame& frame, std::span<const std::uint16_t> ids, MaskWindow& box) {
+    if (!frame.full_turn || box.line > 0 || box.lines < frame.lines) return;
+    int gap = 0;
+    int empty = 0;
+    for (int line = 0; line < frame.lines; ++line) {
+        const auto bins = ids.subspan(static_cast<std::size_t>(line) * frame.bins, frame.bins);
+        empty = std::ranges::find(bins, box.id) == bins.end() ? empty + 1 : 0;
+        if (empty <= gap) continue;
+        gap = empty;
+        box.line = line + 1 - frame.lines;
+    }
+    box.lines -= gap;
+}
+
+}  // namespace
 
 void MaskWindow::sum_within(const CellReach& reach) {
     const auto along = [&](int count, int stride, int steps) {
@@ -64,7 +89,8 @@ std::vector<MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reac
     const int more_lines = 2 * reach.lines + 1;
     const int more_bins = 2 * reach.bins + 1;
     std::vector<MaskWindow> out;
-    for (const auto& [id, box] : boxes) {
+    for (auto& [id, box] : boxes) {
+        unwrap(frame, ids, box);
         MaskWindow& window =
             out.emplace_back(MaskWindow{id, box.line - more_lines, box.bin - more_bins,
                                         box.lines + 2 * more_lines, box.bins + 2 * more_bins});

@@ -141,13 +141,15 @@ class HeightFinder : public BinMoments<1> {
         is_bottom_ = height_m_ < tolerance;
         rise_m_ = patch.position.dot(up_);
         slope_ = path.per_range.dot(up_);
+        bottom_slope_ = bottom_slope(patch, path, tolerance);
         return true;
     }
 
     void cover(const CoveredBins& covered) {
         if (is_bottom_) return moment_[0].fill(0.0);
         const auto height_at = [&](int k) {
-            return std::max(height_m_ + (rise_m_ + slope_ * covered.way[k]) - rise_m_, 0.0);
+            const double above = (rise_m_ + slope_ * covered.way[k]) - rise_m_;
+            return std::max(height_m_ + above - bottom_slope_ * covered.way[k], 0.0);
         };
         for (int k = 0; k < covered.whole; ++k)
             moment_[0][k] = 0.5 * (height_at(k) + height_at(k + 1));
@@ -165,6 +167,18 @@ class HeightFinder : public BinMoments<1> {
     }
 
   private:
+    /// The mean slope of the bottom below a patch along its way; 0 where an end has none.
+    double bottom_slope(const EchoPatch& patch, const RangePath& path, double tolerance) const {
+        const auto below = [&](double way) {
+            const Eigen::Vector3f end = patch.position + static_cast<float>(way) * path.per_range;
+            return bottom_.highest_below(places_.of(end.cast<double>()), tolerance);
+        };
+        if (!(path.depth_m > 0.0)) return 0.0;
+        const auto near = below(-path.depth_m);
+        const auto far = below(path.depth_m);
+        return near && far ? (*far - *near) / (2.0 * path.depth_m) : 0.0;
+    }
+
     bool lies_on_bottom(const Sample& sample) const {
         return sample.instance < is_bottom_instance_.size() &&
                is_bottom_instance_[sample.instance] != 0 &&
@@ -177,7 +191,7 @@ class HeightFinder : public BinMoments<1> {
     Eigen::Vector3f up_;  ///< sensor frame
     // This patch:
     bool is_bottom_ = false;
-    double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0;
+    double height_m_ = 0.0, rise_m_ = 0.0, slope_ = 0.0, bottom_slope_ = 0.0;
 };
 
 struct PatchFinders {

@@ -86,8 +86,8 @@ bool is_cut_open(const MaskFrame& frame, const MaskWindow& shape, std::span<cons
     for (const int at : piece) {
         const int line = shape.line + at / shape.bins;
         const int bin = shape.bin + at % shape.bins;
-        if (line == 0) places[0].push_back(bin);
-        if (line + 1 == frame.lines) places[1].push_back(bin);
+        if (!frame.full_turn && line == 0) places[0].push_back(bin);
+        if (!frame.full_turn && line + 1 == frame.lines) places[1].push_back(bin);
         if (bin == 0) places[2].push_back(line);
         if (bin + 1 == frame.bins) places[3].push_back(line);
     }
@@ -261,8 +261,8 @@ Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow,
     for (MaskWindow& shape : windows_of(frame, reach, both)) {
         if (has_shadow[shape.id] == 0) continue;
         std::vector<char> has_object(shape.lines);
-        shape.for_each(frame, [&](float, std::size_t k) {
-            if (ids[k] == shape.id) has_object[k / frame.bins - shape.line] = 1;
+        shape.for_each(frame, [&](const float& value, std::size_t k) {
+            if (ids[k] == shape.id) has_object[(&value - shape.values.data()) / shape.bins] = 1;
         });
         tidy(shape, reach, [&](const std::vector<int>& piece) {
             return static_cast<float>(piece.size()) >= min_size &&

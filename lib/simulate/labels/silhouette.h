@@ -18,6 +18,7 @@ struct MaskFrame {
     ResolutionCell cell;
     double beam_rad = 0.0;   ///< angle between lines; 0: they are parallel
     double first_bin = 0.0;  ///< bins from where the lines of a fan meet to the first
+    bool full_turn = false;  ///< the last line is next to the first
 };
 
 MaskFrame frame_of(const View& view, const ResolutionCell& cell);
@@ -32,7 +33,8 @@ struct CellReach {
     float count() const { return static_cast<float>((2 * lines + 1) * (2 * bins + 1)); }
 };
 
-/// A number for each bin, [lines, bins], of a box around an object, maybe beyond the frame.
+/// A number for each bin, [lines, bins], of a box around an object, maybe beyond the frame. Over
+/// the seam of a full turn lines are counted on.
 struct MaskWindow {
     std::uint16_t id = 0;   ///< the object's
     int line = 0, bin = 0;  ///< the first
@@ -42,10 +44,12 @@ struct MaskWindow {
     /// Calls use(value, index in the frame) for the bins within the frame.
     template <class Use>
     void for_each(const MaskFrame& frame, Use use) {
-        for (int j = std::max(line, 0); j < std::min(line + lines, frame.lines); ++j) {
+        for (int j = line; j < line + lines; ++j) {
+            const int at = frame.full_turn ? (j + 2 * frame.lines) % frame.lines : j;
+            if (at < 0 || at >= frame.lines) continue;
             for (int i = std::max(bin, 0); i < std::min(bin + bins, frame.bins); ++i) {
                 use(values[static_cast<std::size_t>(j - line) * bins + (i - bin)],
-                    static_cast<std::size_t>(j) * frame.bins + i);
+                    static_cast<std::size_t>(at) * frame.bins + i);
             }
         }
     }

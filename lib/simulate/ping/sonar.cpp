@@ -9,7 +9,7 @@ namespace sonarsim {
 namespace {
 
 Ping form_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
-                const PingKey& key, const Terms& terms) {
+                const PingKey& key, int group, const Terms& terms) {
     Ping ping;
     ping.range_bins = settings.view.range_bins;
     ping.beams = settings.view.beams;
@@ -20,7 +20,10 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
     settings.model->form(traced,
                          {.view = settings.view,
                           .scene = scene,
-                          .draws = {.seed = key.seed, .sensor = settings.stream, .ping = key.ping},
+                          .draws = {.seed = key.seed,
+                                    .sensor = settings.stream,
+                                    .ping = key.ping,
+                                    .group = static_cast<std::uint32_t>(group)},
                           .terms = terms},
                          ping);
     return ping;
@@ -62,9 +65,9 @@ Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t 
 
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
-    Ping ping = form_group(traced, settings, scene, key, terms);
+    Ping ping = form_group(traced, settings, scene, key, 0, terms);
     for (int group = 1; group < traced.groups(); ++group) {
-        const Ping later = form_group(traced.group(group), settings, scene, key, terms);
+        const Ping later = form_group(traced.group(group), settings, scene, key, group, terms);
         for (std::size_t at = 0; at < ping.intensity.size(); ++at) {
             if (traced.transmits(group,
                                  static_cast<int>(at % static_cast<std::size_t>(ping.beams))))

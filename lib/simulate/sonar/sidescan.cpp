@@ -12,15 +12,15 @@ namespace sonarsim {
 namespace {
 
 // The waterfall of a side-scan sonar as an operator sees it, in copper tones: a range axis, then a
-// row per ping, the first ping on top, port on the left. It is one pixel wider than the row of the
-// record (product/sidescan.h), for the line at nadir.
+// row per ping, the first ping on top, port on the left. The line at nadir lies over the first
+// column to starboard.
 
 constexpr int axis_height = 22;
 constexpr Rgb nadir_colour{150, 190, 220};
 
 StripFrame waterfall_frame(const SonarConfig& config, int pings) {
     return {.axis_height = axis_height,
-            .width = waterfall_columns(config) + 1,
+            .width = waterfall_columns(config),
             .height = axis_height + pings};
 }
 
@@ -35,7 +35,7 @@ Picture waterfall_axis(const SonarConfig& config, const StripFrame& frame) {
     for (const double range : marks) {
         const int column = static_cast<int>(std::floor(range * columns_per_m));
         const std::string text = number_text(range) + " m";
-        for (const int x : {nadir - 1 - column, nadir + 1 + column}) {
+        for (const int x : {nadir - 1 - column, nadir + column}) {
             fill(axis, x, axis_height - 6, 1, 6, ink);
             // Labels must not be cut off or overlap the label of nadir.
             const int half = text_width(text) / 2 + 2;
@@ -54,7 +54,7 @@ void waterfall_row(std::span<const float> row, double white, const StripFrame& /
     const auto full = static_cast<float>(white);
     const std::size_t nadir = row.size() / 2;
     for (std::size_t i = 0; i < row.size(); ++i)
-        pixels[i < nadir ? i : i + 1] = blend(copper_colours, shade(row[i], full));
+        pixels[i] = blend(copper_colours, shade(row[i], full));
     pixels[nadir] = nadir_colour;
 }
 

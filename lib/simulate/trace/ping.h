@@ -28,8 +28,14 @@ struct PingDraws {
     std::uint64_t seed = 0;
     std::uint32_t sensor = 0;  ///< names the sonar
     std::uint32_t ping = 0;    ///< index of the pose on the trajectory
+    std::uint32_t group = 0;   ///< of a shutter
 
     PhiloxKey of(Stream stream) const { return stream_key(seed, sensor, ping, stream); }
+    /// Draws of what is received with one group of a shutter.
+    PhiloxKey received(Stream stream) const {
+        const PhiloxKey key = of(stream);
+        return {key.k0 ^ (group * 0x9E3779B9U), key.k1};
+    }
     /// Draws that belong to the scene: the same for all sonars and pings.
     PhiloxKey scene_key(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };

@@ -9,20 +9,20 @@ from ..data import bin_of
 PLY = {"f8": "double", "f4": "float", "u2": "uint", "u4": "uint"}     # meshio knows no ushort
 
 
-def points_of(sample, depth):
-    """The points of a ping, name -> array [n]: x, y, z in the world, intensity, class, instance, and depths below z = 0:
-    `depth` of the surface itself, `depth_m` of a sounding. Class and instance are those of its bin."""
+def points_of(sample, depth, top_m):
+    """The points of a ping, name -> array [n]: x, y, z in the world, intensity, class, instance, and depths below the height
+    `top_m`: `depth` of the surface itself, `depth_m` of a sounding. Class and instance are those of its bin."""
     sensor, found = sample.sensor, {}
     if "soundings" in sensor.keys:
         rows = np.array(sample["soundings"])
         beams = np.flatnonzero(np.isfinite(rows[:, 0]))
         rows = rows[beams]
         at = np.maximum(bin_of(rows[:, 0], sensor.range_edges_m), 0), beams
-        found = dict(zip("xyz", rows.T[1:4]), quality=rows[:, 4].astype("f4"), depth_m=-rows[:, 3])
+        found = dict(zip("xyz", rows.T[1:4]), quality=rows[:, 4].astype("f4"), depth_m=top_m - rows[:, 3])
     else:
         points = sensor.points(sample)
         at = tuple(points.bins.T)
-        found = dict(zip("xyz", points.position_m.T), **{depth: -points.position_m[:, 2]})
+        found = dict(zip("xyz", points.position_m.T), **{depth: top_m - points.position_m[:, 2]})
     for name, source, kind in (("intensity", "polar", "f4"), ("class", "class", "u2"), ("instance", "instance", "u2")):
         if source in sensor.keys:
             found[name] = sample[source][at].astype(kind)
@@ -34,10 +34,11 @@ def write(folder, dataset, sensors, options):
     # Where a profile bends sound, places by straight sound are apparent ones.
     mission = (dataset.folder / "mission.resolved.yaml").read_text("utf-8")
     is_bent = re.search(r"^water:\n(?:  .*\n)*?  profile:", mission, re.MULTILINE)
+    top = re.search(r"^  water_surface:\n(?:    .*\n)*?    height_m: (.*)", mission, re.MULTILINE)
     for sensor in sensors:
         clouds, count = [], 0
         for sample in sensor:
-            cloud = points_of(sample, "depth_apparent_m" if is_bent else "depth_true_m")
+            cloud = points_of(sample, "depth_apparent_m" if is_bent else "depth_true_m", float(top[1]) if top else 0.0)
             count += len(cloud["x"])
             if options.whole:
                 clouds.append(cloud | {"ping": np.full(len(cloud["x"]), sample.ping, "u4")})

@@ -139,7 +139,7 @@ class Yolo(Format):
                 text += f"{part}: images/{part}\n"
             elif part != "test":
                 text += f"{part}: images/{next(iter(self.parts))}  # there is no such part\n"
-        text += "names:\n" + "".join(f"  {k}: {json.dumps(name)}\n" for k, name in enumerate(self.classes))
+        text += "names:\n" + "".join(f"  {k}: {json.dumps(name, ensure_ascii=False)}\n" for k, name in enumerate(self.classes))
         write(self.folder / "data.yaml", text)
 
 
@@ -240,9 +240,16 @@ class HuggingFace(Format):
 class Crops(Format):
     """PART/CLASS/NAME.png; crops without an object are in PART/background."""
 
+    def __init__(self, folder, classes, info, options):
+        super().__init__(folder, classes, info, options)
+        self.folders = ["background", *(re.sub(r"[^\w+-]", "_", name) for name in classes)]
+        twice = next((name for name in self.folders if self.folders.count(name) > 1), None)
+        if twice:
+            raise ValueError(f"--format crops: two classes would share the folder {twice}; rename one in the mission")
+
     def add(self, piece):
-        name = self.classes[piece.objects[0]["class"] - 1] if piece.objects else "background"
-        place(self.folder / piece.part / re.sub(r"[^A-Za-z0-9_+-]", "_", name), f"{piece.name}.png", piece.content)
+        name = self.folders[piece.objects[0]["class"] if piece.objects else 0]
+        place(self.folder / piece.part / name, f"{piece.name}.png", piece.content)
 
     def finish(self):
         pass

@@ -139,7 +139,7 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
     if (receiver.loss_share > 0.0) lose_power(receiver, draws.of(stream_named("losses")), image);
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
     if (receiver.interference_per_s > 0.0)
-        add_interference(receiver, rows, draws.of(stream_named("interference")), image);
+        add_interference(receiver, rows, draws.received(stream_named("interference")), image);
     if (receiver.beam_gain_db > 0.0 || receiver.edge_loss_db > 0.0)
         apply_beam_gains(receiver, rows, draws, image);
 }
@@ -171,25 +171,21 @@ Reverberation::Reverberation(const ReceiverConfig& receiver, double bin_m, doubl
     decay = static_cast<float>(power(10.0, -6.0 * bin_s / receiver.reverberation_s));
 }
 
-void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid) {
+void add_reverberation(const Reverberation& tail, const EchoGrid& powers, PowerForm form,
+                       float gain, PhiloxKey key, EchoGrid& grid) {
     if (!(tail.share > 0.0F)) return;
-    const float gain = (1.0F - tail.decay) * tail.share;
+    const float share = (1.0F - tail.decay) * tail.share;
     const int padded = (grid.rows() + lanes - 1) / lanes * lanes;
-    std::vector<float> powers(static_cast<std::size_t>(padded));
+    std::vector<float> tails(static_cast<std::size_t>(padded));
     for (int c = 0; c < grid.columns(); ++c) {
-        const float* const cells = grid.column(c);
-        for (int row = 0; row < grid.rows(); ++row) {
-            const float re = cells[std::ptrdiff_t{2} * row];
-            const float im = cells[std::ptrdiff_t{2} * row + 1];
-            powers[row] = form == PowerForm::power ? re : std::fma(re, re, im * im);
-        }
+        const float* const echoes = powers.column(c);
         float reverberant = 0.0F;
         for (int row = 0; row < grid.rows(); ++row) {
-            const float echo = powers[row];
-            powers[row] = reverberant > negligible * echo ? reverberant : 0.0F;
-            reverberant = std::fma(tail.decay, reverberant, gain * echo);
+            const float echo = echoes[std::ptrdiff_t{2} * row];
+            tails[row] = reverberant > negligible * echo ? reverberant : 0.0F;
+            reverberant = std::fma(tail.decay, reverberant, share * echo);
         }
-        add_drawn(form, powers, 1.0F, c, key, grid);
+        add_drawn(form, tails, gain, c, key, grid);
     }
 }
 

@@ -20,7 +20,7 @@ struct ImageRows {
     int pulse_bins = 1;  ///< length of a pulse
     int rows = 0;
     int beams = 0;
-    std::span<const float> noise;  ///< [rows] the value of the mean noise
+    std::span<const float> noise;  ///< [rows] the value of the mean noise before the converter
 };
 
 /// Adds values to the bins of the first rows.
@@ -56,8 +56,10 @@ struct Reverberation {
     Reverberation(const ReceiverConfig& receiver, double bin_m, double sound_speed_m_s);
 };
 
-/// Adds the tails of a grid's echoes, before the pulse. Amplitudes are drawn for each ping.
-void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid);
+/// Adds the tails of the echoes of mean `powers` to a grid, before the pulse; `powers` may be the
+/// grid. Amplitudes are drawn for each ping, `gain` times these powers.
+void add_reverberation(const Reverberation& tail, const EchoGrid& powers, PowerForm form,
+                       float gain, PhiloxKey key, EchoGrid& grid);
 
 /// The value that an instrument delivers of the n independent samples of which it makes a range
 /// bin: their largest power, or their mean power. One sample is rendered, and its rank among the

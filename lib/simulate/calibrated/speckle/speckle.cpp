@@ -134,6 +134,26 @@ void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar,
     place(2, out.z);
 }
 
+/// Moves places from where straight sound and a sonar at rest have them to the true ones: each by
+/// as much as the middle of its sample.
+void move_to_true(std::span<const Sample> samples, const PatchBlock& pieces,
+                  const TruePlaces& places, WorldPlaces& out) {
+    const Sample* last = nullptr;
+    Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+    for (int k = 0; k < pieces.count; ++k) {
+        const Sample& sample = samples[pieces.sample[k]];
+        if (&sample != last) {
+            const Eigen::Vector3d measured = sample.position.cast<double>();
+            shift = (places.of(measured) - true_place(nullptr, places.T_world_sensor, measured))
+                        .cast<float>();
+            last = &sample;
+        }
+        out.x[k] += shift.x();
+        out.y[k] += shift.y();
+        out.z[k] += shift.z();
+    }
+}
+
 }  // namespace
 
 void add_drawn(PowerForm form, std::span<const float> powers, float gain, int column, PhiloxKey key,
@@ -185,11 +205,13 @@ Texture::Texture(std::span<const Material> materials, double factor) {
     coarse_ = make_field(coarse, 1);
 }
 
-void Texture::apply(const PatchBlock& pieces, const SonarInScene& sonar, PhiloxKey key,
+void Texture::apply(std::span<const Sample> samples, const PatchBlock& pieces,
+                    const SonarInScene& sonar, const TruePlaces& true_places, PhiloxKey key,
                     PatchBlock::Array<float>& power) const {
     if (!exists()) return;
     WorldPlaces places{};  // whole vectors are read
     find_places(pieces, pieces.count, sonar, places);
+    if (!true_places.is_measured()) move_to_true(samples, pieces, true_places, places);
     PatchBlock::Array<float> field;
     for (int k = 0; k < pieces.count; k += lanes) {
         const Floats8 height = Floats8(share_of_height) * Floats8::load(places.z.data() + k);

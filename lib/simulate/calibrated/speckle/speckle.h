@@ -7,6 +7,7 @@
 #include "input/scene/scene.h"
 #include "simulate/calibrated/signal/echo_grid.h"
 #include "simulate/calibrated/speckle/scatterers.h"
+#include "simulate/trace/ping_motion.h"
 
 namespace sonarsim {
 
@@ -53,9 +54,10 @@ class Texture {
     Texture(std::span<const Material> materials, double factor);
 
     bool exists() const { return !fine_.empty(); }
-    /// Multiplies the powers of pieces by the factors at their places. `key` moves the squares.
-    void apply(const PatchBlock& pieces, const SonarInScene& sonar, PhiloxKey key,
-               PatchBlock::Array<float>& power) const;
+    /// Multiplies the powers of pieces of `samples` by the factors at their places. `key` moves the
+    /// squares.
+    void apply(std::span<const Sample> samples, const PatchBlock& pieces, const SonarInScene& sonar,
+               const TruePlaces& places, PhiloxKey key, PatchBlock::Array<float>& power) const;
 
   private:
     /// exp(gain * field + offset), field in deviations of an octave.
