@@ -110,11 +110,18 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         const PlacedFile& file = *next.placed;
         for (const PlacedMesh& mesh : next.meshes) {
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
+            const bool bottom = is_bottom(file, mesh);
+            const auto named = std::ranges::find(files, mesh.node, &PlacedFile::name);
+            if (bottom && file.name.empty() && named != files.end()) {
+                refuse(named->place,
+                       "'{}' is a node of the bottom, too; give the object another name",
+                       printable(mesh.node));
+            }
             if (!is_part) {
                 scene.instances.push_back(mesh.instance);
                 scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
                                                                          : file.class_name);
-                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
+                scene.is_bottom.push_back(bottom ? 1 : 0);
             }
             next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
         }
