@@ -95,6 +95,13 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         refuse(file.place, "there is an object '{}' already; give each a name of its own",
                printable(file.name));
     }
+    for (const PlacedFile& file : files) {
+        if (!file.name.empty() || !file.bottom) continue;
+        const auto same = std::ranges::find_first_of(files, *file.bottom, {}, &PlacedFile::name);
+        if (same == files.end()) continue;
+        refuse(same->place, "scene.bottom names a node '{}', too; give the object another name",
+               printable(same->name));
+    }
     // The rules of the mission know the ground by the names of its nodes, so they come first.
     std::vector<OpenFile> open(files.size());
     for (const bool ground : {true, false}) {
@@ -110,18 +117,11 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         const PlacedFile& file = *next.placed;
         for (const PlacedMesh& mesh : next.meshes) {
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
-            const bool bottom = is_bottom(file, mesh);
-            const auto named = std::ranges::find(files, mesh.node, &PlacedFile::name);
-            if (bottom && file.name.empty() && named != files.end()) {
-                refuse(named->place,
-                       "'{}' is a node of the bottom, too; give the object another name",
-                       printable(mesh.node));
-            }
             if (!is_part) {
                 scene.instances.push_back(mesh.instance);
                 scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
                                                                          : file.class_name);
-                scene.is_bottom.push_back(bottom ? 1 : 0);
+                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
             }
             next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
         }
