@@ -1,9 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <array>
-
 #include "commands.h"
 #include "core/text.h"
 #include "core/units.h"

@@ -1,4 +1,3 @@
-#include <spdlog/fmt/fmt.h>
 
 #include "commands.h"
 #include "core/error.h"

@@ -5,11 +5,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <sstream>
 #include <system_error>
-#include <vector>
 
 #include "commands.h"
 #include "core/build_info.h"

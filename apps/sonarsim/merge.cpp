@@ -1,8 +1,5 @@
 #include <spdlog/spdlog.h>
 
-#include <filesystem>
-#include <vector>
-
 #include "commands.h"
 #include "run/checks/warning.h"
 #include "run/job/dataset_folders.h"

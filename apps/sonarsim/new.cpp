@@ -1,6 +1,4 @@
-#include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <regex>
 #include <set>
 

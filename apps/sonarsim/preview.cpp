@@ -2,8 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <optional>
-
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"

@@ -1,10 +1,6 @@
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "commands.h"
 #include "core/error.h"

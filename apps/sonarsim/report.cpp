@@ -1,9 +1,7 @@
 #include "run/report/report.h"
 
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <set>
 
 #include "commands.h"

@@ -1,7 +1,5 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <vector>
-
 #include "commands.h"
 #include "run/job/dataset_folders.h"
 

@@ -3,12 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 #include <tbb/info.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "core/text.h"
 #include "logging.h"

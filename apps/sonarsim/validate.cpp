@@ -1,16 +1,11 @@
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <system_error>
-#include <utility>
 #include <variant>
 
 #include "commands.h"

@@ -1,7 +1,5 @@
 #include "core/csv.h"
 
-#include <utility>
-
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"

@@ -3,12 +3,9 @@
 #include <sys/random.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"

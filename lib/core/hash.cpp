@@ -4,7 +4,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "core/file.h"

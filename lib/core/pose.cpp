@@ -1,7 +1,5 @@
 #include "core/pose.h"
 
-#include <cmath>
-
 #include "core/elementary.h"
 #include "core/units.h"
 

@@ -133,6 +133,8 @@ REFUSED = (
     ({"mine.gltf": '{"asset": {"version": "2.0"}}'}, "mission.yaml:6:7: 'mine': there is no surface in", "name another file"),
     (mine_as("{name: a, file: mine.gltf, bury_m: 0.1}"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
     (edited("  objects:\n", "  bottom: [flor]\n  objects:\n"), "mission.yaml:3:3: ", "bottom: no node of", "fits 'flor'"),
+    (edited("  objects:\n", "  bottom: [sand]\n  objects:\n", "name: mine", "name: sand", "out}", "out, labels: [height]}"),
+     "scene.bottom names a node 'sand', too"),
     (mine_as(MINE + "\n    - " + MINE), "mission.yaml:7:7: there is an object 'mine' already"),
     (mine_as(MINE.replace("0.3", "-9")), "mission.yaml:6:7: 'mine' lies wholly below the bottom", "place: on_bottom"),
     (mine_as("{name: a, file: mine.gltf, position_m: [49.8, 0, 0], place: on_bottom}"),

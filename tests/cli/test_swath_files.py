@@ -95,12 +95,12 @@ class SwathFiles(Rendered):
     def test_xtf_of_a_turned_mount(self):
         """The channels are port and starboard of the heading, that of the sonar: the block is to port of one that
         faces astern. A mount that rolls by 10 degrees rolls the sonar."""
-        self.edit("mission.yaml", "kind: sidescan,", "kind: sidescan, mount: {rpy_deg: [10, 0, 180]},")
+        self.edit("mission.yaml", "translation_m: [-1, 0, 0]", "rpy_deg: [10, 0, 180]")
         self.assert_renders("--overwrite")
         _, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
         for ping in pings:
             self.assert_near(ping["place"][-3:], (0, 10, 270), 1e-4)
-        port, starboard = (side[-1] for side in pings[48]["sides"])
+        port, starboard = (side[-1] for side in pings[44]["sides"])
         self.assertGreater(max(port), 3 * max(starboard))
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")

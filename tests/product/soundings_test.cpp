@@ -143,6 +143,22 @@ TEST_CASE("soundings: noise hides no bottom that stands out of it") {
     CHECK(make_sonar(raised, {}).settings.model->info.mean_noise.empty());
 }
 
+TEST_CASE("soundings: side lobes and the rise of the background have no quality") {
+    SonarConfig config = three_beams().config;
+    config.model = ModelKind::calibrated;
+    const Sonar sonar = make_sonar(config, {});
+    const std::span<const float> noise = sonar.settings.model->info.mean_noise;
+    Ping ping = even_ping(sonar, 0.0F);
+    for (int i = 0; i < 300; ++i)
+        ping.intensity[i] = (i % 3 == 2 && i >= 180 ? 3.0F : 1.0F) * noise[i / 3];
+    ping.intensity[50 * 3 + 1] = 1e6F * noise[50];
+    ping.intensity[50 * 3] = 1e3F * noise[50];
+    const std::vector<Sounding> found = find_soundings(sonar, Pose{}, ping);
+    CHECK(found[0].quality == 0.0);
+    CHECK(found[1].quality > 0.9);
+    CHECK(found[2].quality == 0.0);
+}
+
 // Gaussian beams over oblique ground: the echo of bin i has the amplitude of its speckle times
 // exp(-((i - c_j) / 8)^2) in beam j, c_j = 40, 50, 60. The axis of beam 1 lies in the middle of bin
 // 50. The logarithm of the ratio of beams 0 and 2 is a line without speckle.

@@ -25,7 +25,8 @@ class Pings(tool.ToolTest):
     def setUpClass(cls):
         cls.rendered = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="sonarsim-"))) / "out"
         subprocess.run([tool.os.environ["SONARSIM"], "render", tool.ROOT / "tests/four_sonars.yaml", "--quiet", "--out",
-                        cls.rendered, "--set", "output.labels=[instance, class, elevation, clean, objects]"], check=True)
+                        cls.rendered, "--set", "output.labels=[instance, class, elevation, clean, objects]",
+                        "--set", "scene.water_surface.height_m=50"], check=True)
         cls.dataset = open_dataset(cls.rendered)
 
     def export(self, *words):
@@ -39,12 +40,12 @@ class Pings(tool.ToolTest):
         np.testing.assert_array_equal(np.stack([cloud[axis] for axis in "xyz"], 1), points.position_m)
         np.testing.assert_array_equal(cloud["instance"], points.instance)
         np.testing.assert_array_equal(cloud["intensity"], fls[3]["polar"][tuple(points.bins.T)])
-        np.testing.assert_array_equal(cloud["depth_true_m"], -cloud["z"])
+        np.testing.assert_array_equal(cloud["depth_true_m"], 50.0 - cloud["z"])
         # Soundings of the floor, whose z is 0, have its instance.
         cloud = np.load(self.folder / "dest/mbes-000003.npz")
         floor = cloud["instance"] == {text: k for k, text in self.dataset.instances.items()}["floor"]
         self.assertGreater(floor.sum(), 20)
-        self.assertLess(np.abs(np.median(cloud["depth_m"][floor])), 0.05)
+        self.assertLess(np.abs(np.median(cloud["depth_m"][floor]) - 50.0), 0.05)
         self.assertEqual(len(cloud["x"]), np.isfinite(self.dataset["mbes"][3]["soundings"][:, 0]).sum())
         shutil.rmtree(self.folder / "dest")
         self.export("--format", "points", "--whole", "--sensor", "fls")

@@ -236,10 +236,8 @@ class Mission:
         without variants counts as one."""
         shares = [(k, (0, 1)) for k in range(max(1, len(self.variants)))]
         for index, count in shards:
-            if len(shares) >= count:
-                shares = shares[index::count]
-            else:
-                shares = [(k, (first + step * index, step * count)) for k, (first, step) in shares]
+            cut = [(k, (first + step * index, step * count)) for k, (first, step) in shares]
+            shares = shares[index::count] if len(shares) >= count else cut
         return shares
 
     def _make(self, number: int, index: int) -> Ping:

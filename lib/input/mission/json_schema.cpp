@@ -1,9 +1,6 @@
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
 
 #include "core/text.h"
 #include "input/mission/reference.h"

@@ -1,8 +1,6 @@
 #include "input/mission/parse.h"
 
-#include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "core/file.h"
 #include "core/text.h"

@@ -1,10 +1,5 @@
 #include "input/mission/ping_draws.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"

@@ -1,6 +1,5 @@
 #include "input/mission/preset.h"
 
-#include <algorithm>
 #include <system_error>
 
 #include "core/file.h"

@@ -1,7 +1,5 @@
 #include "input/mission/reader.h"
 
-#include <algorithm>
-
 #include "core/text.h"
 #include "input/mission/dataset_names.h"
 

@@ -1,9 +1,7 @@
 #include "input/mission/reference.h"
 
-#include <algorithm>
 #include <initializer_list>
 #include <iterator>
-#include <string_view>
 #include <variant>
 
 #include "core/text.h"

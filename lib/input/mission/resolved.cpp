@@ -1,9 +1,7 @@
 #include "input/mission/resolved.h"
 
-#include <algorithm>
 #include <initializer_list>
 #include <map>
-#include <optional>
 
 #include "core/error.h"
 #include "core/hash.h"

@@ -1,9 +1,7 @@
 #include "input/mission/stock.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/text.h"
 #include "input/mission/preset.h"

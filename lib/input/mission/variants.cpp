@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "core/random.h"
 #include "core/text.h"
 #include "input/mission/ping_draws.h"

@@ -1,9 +1,7 @@
 #include "input/scene/materials.h"
 
-#include <array>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "core/csv.h"
 #include "core/elementary.h"

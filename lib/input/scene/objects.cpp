@@ -1,8 +1,6 @@
 #include "input/scene/objects.h"
 
-#include <algorithm>
 #include <map>
-#include <string_view>
 
 #include "core/text.h"
 

@@ -2,11 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cstdint>
-#include <vector>
-
 #include "core/text.h"
 #include "input/mission/limits.h"
 #include "input/scene/mesh_topology.h"

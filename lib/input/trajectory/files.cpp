@@ -1,13 +1,7 @@
 #include "input/trajectory/files.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "core/csv.h"
 #include "core/error.h"

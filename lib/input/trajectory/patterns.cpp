@@ -1,11 +1,6 @@
 #include "input/trajectory/patterns.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/error.h"

@@ -1,9 +1,5 @@
 #include "input/trajectory/trajectory.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"

@@ -1,9 +1,5 @@
 #include "output/dataset/dataset_file.h"
 
-#include <spdlog/fmt/fmt.h>
-
-#include <algorithm>
-
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"

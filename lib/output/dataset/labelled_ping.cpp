@@ -1,8 +1,5 @@
 #include "output/dataset/labelled_ping.h"
 
-#include <algorithm>
-#include <span>
-
 #include "input/scene/copies.h"
 #include "simulate/labels/silhouette.h"
 #include "simulate/sonar/kinds.h"

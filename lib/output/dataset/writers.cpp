@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "core/error.h"
 #include "output/dataset/writer.h"

@@ -1,6 +1,5 @@
 #include "run/checks/measured_error.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/ordered_pipeline.h"

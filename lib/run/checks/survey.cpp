@@ -1,9 +1,5 @@
 #include "run/checks/survey.h"
 
-#include <cmath>
-#include <memory>
-#include <span>
-
 #include "core/units.h"
 #include "input/scene/copies.h"
 #include "input/scene/mesh_topology.h"

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "core/text.h"
 #include "core/units.h"

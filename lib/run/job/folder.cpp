@@ -1,11 +1,7 @@
 #include "run/job/folder.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <set>
-#include <stdexcept>
 
 #include "core/error.h"
 #include "core/file.h"

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
-#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"

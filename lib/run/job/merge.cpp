@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <fstream>
-#include <optional>
 
 #include "core/error.h"
 #include "core/file.h"

@@ -1,11 +1,5 @@
 #include "run/job/ping_cost.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <memory>
-#include <span>
-#include <string>
-#include <utility>
 #include <variant>
 
 #include "core/clock.h"

@@ -1,6 +1,5 @@
 #include "run/job/ping_source.h"
 
-#include <filesystem>
 #include <variant>
 
 #include "output/dataset/encode_ping.h"

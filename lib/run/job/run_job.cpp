@@ -1,10 +1,7 @@
 #include "run/job/run_job.h"
 
-#include <map>
 #include <memory>
-#include <optional>
 #include <sstream>
-#include <stdexcept>
 
 #include "core/error.h"
 #include "core/file.h"

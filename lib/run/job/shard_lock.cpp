@@ -1,17 +1,12 @@
 #include "run/job/shard_lock.h"
 
-#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <random>
-#include <string>
 #include <thread>
-#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"

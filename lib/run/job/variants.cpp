@@ -1,6 +1,5 @@
 #include "run/job/variants.h"
 
-#include <algorithm>
 #include <future>
 
 #include "core/build_info.h"

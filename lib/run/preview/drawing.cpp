@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/text.h"

@@ -2,9 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/units.h"
 #include "simulate/assembly/poses.h"

@@ -4,7 +4,6 @@
 #include <map>
 #include <span>
 #include <sstream>
-#include <utility>
 
 #include "input/scene/model_data.h"
 #include "run/preview/preview.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/ordered_pipeline.h"

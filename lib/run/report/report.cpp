@@ -1,6 +1,5 @@
 #include "run/report/report.h"
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 

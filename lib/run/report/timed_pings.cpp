@@ -1,7 +1,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 
 #include "core/clock.h"

@@ -72,8 +72,8 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     // Without multipath the surface bounds the water, and depths count from it, as of bubbles.
-    if (!multipath && !some_water_scatters(mission) && !mission.water.profile &&
-        !config.scatters && mission.scene.particles.empty()) {
+    if (!multipath && !some_water_scatters(mission) && !mission.water.profile && !config.scatters &&
+        mission.scene.particles.empty()) {
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }

@@ -39,7 +39,7 @@ struct CalibratedModel final : EchoModel {
     /// [range bins] The value of the receiver's mean noise.
     std::vector<float> noise_values;
     std::vector<float> analog_noise_values;  ///< without that of the converter
-    std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
+    std::optional<WaterColumn> water;        ///< its volume scattering; nothing: none
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;

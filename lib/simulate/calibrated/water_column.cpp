@@ -51,8 +51,8 @@ double form_function(double x) {
 // Columns of a line array's grid are joined to channels of about this sine, one degree.
 constexpr double channel_sine = 0.018;
 
-// Directions in a cone lie on rings, those of other views in rows of elevation. Of beams that are
-// narrow for the view a quarter of the width lies between them.
+// Directions in a cone lie on rings, those of other views in rows of elevation. They are at most a
+// quarter of a beam's width apart.
 constexpr int min_rings = 128;
 constexpr int max_rings = 1 << 14;
 constexpr int ring_turns = 8;

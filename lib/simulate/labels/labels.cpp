@@ -280,7 +280,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
         for (int beam = 0; beam < labels.beams; ++beam) {
             if (traced.transmits(group, beam)) copy_beam(later, beam, request, labels);
         }
-        // Of an object that several groups see, the first counts.
+        // The first group that sees an object counts.
         for (std::size_t k = 0; k < labels.visible_share.size(); ++k) {
             if (std::isnan(labels.visible_share[k]))
                 labels.visible_share[k] = later.visible_share[k];

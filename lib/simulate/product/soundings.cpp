@@ -47,10 +47,10 @@ std::optional<double> crossing_of_neighbours(const Ping& ping, int beam,
 
 /// The share of a run in the calibrated model that neither side lobes nor the background explains.
 /// `strongest` has the greatest value of all beams in each bin.
-double unexplained_share(const Ping& ping, int beam, const DetectedReturn& run,
+double unexplained_share(const Sonar& sonar, const Ping& ping, int beam, const DetectedReturn& run,
                          std::span<const double> values, std::span<const float> strongest) {
-    constexpr double side_lobe = 0.003;  // of the echo in another beam
-    constexpr double background = 4.0;  // that of water rises under the TVG
+    constexpr double side_lobe = 0.003;  // times the echo in another beam
+    constexpr double background = 4.0;   // water's rises under the TVG
     double own = 0.0;
     double other = 0.0;
     double above = 0.0;  // the background
@@ -59,8 +59,9 @@ double unexplained_share(const Ping& ping, int beam, const DetectedReturn& run,
         other += strongest[i];
         above += values[i];
     }
-    return std::max(0.0, 1.0 - side_lobe * other / own) *
-           std::max(0.0, 1.0 - background * (run.end - run.begin) / above);
+    const double share = std::max(0.0, 1.0 - side_lobe * other / own);
+    if (sonar.settings.model->info.mean_noise.empty()) return share;
+    return share * std::max(0.0, 1.0 - background * (run.end - run.begin) / above);
 }
 
 /// Range and quality of one beam. `values` are those of the beam, divided by its background;
@@ -75,7 +76,7 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
     sounding.quality = std::max(0.0, 1.0 - rival * rival);
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
     if (sonar.config.model == ModelKind::calibrated) {
-        sounding.quality *= unexplained_share(ping, beam, run, values, strongest);
+        sounding.quality *= unexplained_share(sonar, ping, beam, run, values, strongest);
         if (const auto at = crossing_of_neighbours(ping, beam, run)) {
             const auto bin = static_cast<std::size_t>(*at);
             sounding.range_m = std::lerp(sonar.range_edges_m[bin], sonar.range_edges_m[bin + 1],

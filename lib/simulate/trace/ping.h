@@ -28,7 +28,7 @@ struct PingDraws {
     std::uint64_t seed = 0;
     std::uint32_t sensor = 0;  ///< names the sonar
     std::uint32_t ping = 0;    ///< index of the pose on the trajectory
-    std::uint32_t group = 0;   ///< of a shutter
+    std::uint32_t group = 0;   ///< the shutter's
 
     PhiloxKey of(Stream stream) const { return stream_key(seed, sensor, ping, stream); }
     /// Draws of what is received with one group of a shutter.

@@ -28,8 +28,7 @@ def usual_mission(kind, range_m, view=None, bottom="sand"):
     range_m = float(range_m)
     views = [(view[0] / range_m, view[1])] * 2 if view else [(share, np.arcsin(share / 0.75))
                                                              for share in (0.15, 0.23, 0.32, 0.4)]
-    rocks = {"rocks": {"density_per_m2": 10.0 / range_m**2, "diameter_m": [0.02 * range_m, 0.1 * range_m],
-                       "material": "rock"}}
+    rocks = {"rocks": {"density_per_m2": 10.0 / range_m**2, "diameter_m": [0.02 * range_m, 0.1 * range_m], "material": "rock"}}
     return {"name": "usual", "seed": 1,
             "scene": {"materials": "materials.csv", "seabed": {
                 "cell_m": range_m / 200.0, "material": bottom, **({} if view else rocks)}},

@@ -240,16 +240,15 @@ class HuggingFace(Format):
 class Crops(Format):
     """PART/CLASS/NAME.png; crops without an object are in PART/background."""
 
-    def __init__(self, folder, classes, info, options):
-        super().__init__(folder, classes, info, options)
-        self.folders = ["background", *(re.sub(r"[^\w+-]", "_", name) for name in classes)]
-        twice = next((name for name in self.folders if self.folders.count(name) > 1), None)
-        if twice:
-            raise ValueError(f"--format crops: two classes would share the folder {twice}; rename one in the mission")
+    def __init__(self, *options):
+        super().__init__(*options)
+        self.folders = ["background", *(re.sub(r"[^\w+-]", "_", name) for name in self.classes)]
+        if len(set(self.folders)) < len(self.folders):
+            raise ValueError(f"--format crops: two of the folders {', '.join(self.folders)} are one; rename a class in the mission")
 
     def add(self, piece):
-        name = self.folders[piece.objects[0]["class"] if piece.objects else 0]
-        place(self.folder / piece.part / name, f"{piece.name}.png", piece.content)
+        kind = self.folders[piece.objects[0]["class"] if piece.objects else 0]
+        place(self.folder / piece.part / kind, f"{piece.name}.png", piece.content)
 
     def finish(self):
         pass

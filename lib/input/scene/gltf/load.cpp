@@ -1,11 +1,5 @@
 #include "input/scene/gltf/load.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cstdint>
-#include <set>
-#include <utility>
-
 #include "core/error.h"
 #include "core/text.h"
 #include "input/scene/copies.h"

@@ -1,6 +1,5 @@
 #include "input/scene/gltf/nodes.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,12 +1,7 @@
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"

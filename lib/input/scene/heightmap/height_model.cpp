@@ -1,10 +1,6 @@
 #include "input/scene/heightmap/height_model.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"

@@ -1,10 +1,8 @@
 #include "input/scene/images/read_image.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 
 #include "core/file.h"

@@ -1,18 +1,8 @@
 #include "input/scene/maps/read_maps.h"
 
-#include <spdlog/fmt/fmt.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/elementary.h"
 #include "core/error.h"

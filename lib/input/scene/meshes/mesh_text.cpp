@@ -1,7 +1,5 @@
 #include "input/scene/meshes/mesh_text.h"
 
-#include <algorithm>
-
 #include "core/text.h"
 
 namespace sonarsim {

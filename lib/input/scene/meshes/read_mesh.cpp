@@ -1,17 +1,9 @@
 #include "input/scene/meshes/read_mesh.h"
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"

@@ -1,8 +1,5 @@
 #include "input/scene/placing/scatter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/pose.h"
 #include "core/random.h"
 #include "core/text.h"

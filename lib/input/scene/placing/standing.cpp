@@ -2,9 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "core/text.h"
 #include "input/mission/scene_keys.h"
 #include "input/scene/meshes/read_mesh.h"

@@ -1,11 +1,8 @@
 #include "input/scene/seabed/bed_model.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
-#include <utility>
 
 #include "input/scene/model_data.h"
 

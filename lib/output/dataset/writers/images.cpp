@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "output/dataset/writer.h"
 #include "simulate/product/contrast.h"

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
-#include <utility>
 
 #include "output/dataset/writer.h"
 #include "simulate/product/fan.h"

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/file.h"

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iterator>
 
 #include "output/dataset/strip_rows.h"

@@ -1,8 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <span>
-#include <utility>
 
 #include "core/pose.h"
 #include "core/units.h"

@@ -31,7 +31,7 @@ std::optional<SedimentScattering> sediment_scattering(std::span<const Material> 
             float& surface = out.surface.sea_beds[at];
             out.volume.sea_beds[at] = std::min(static_cast<float>(bed.below(grazing_rad)), surface);
             surface -= out.volume.sea_beds[at];
-            float& diffuse = out.surface.materials[m].diffuse[k];  // of targets
+            float& diffuse = out.surface.materials[m].diffuse[k];  // that targets have
             diffuse = std::max(diffuse - out.volume.sea_beds[at], 0.0F);
             out.lag_m[at] = static_cast<float>(bed.lag_m(grazing_rad));
         }
