@@ -1,4 +1,3 @@
-
 #include "commands.h"
 #include "core/error.h"
 #include "core/text.h"

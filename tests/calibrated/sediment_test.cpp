@@ -63,6 +63,16 @@ TEST_CASE("sediment: at normal incidence the tail decays by the attenuation of t
     }
 }
 
+TEST_CASE("sediment: surface and volume add up to the bed, as surface and as a target") {
+    const Scene scene = bed_scene({.name = "bed", .grain_phi = bed_phi}, 20.0F, -10.0);
+    const auto model = calibrated_model_of(bed_sounder(true)).prepared_for(scene);
+    const std::vector<float>& whole = model->scattering.materials[0].diffuse;
+    const std::vector<float>& target = model->sediment->surface.materials[0].diffuse;
+    CHECK(target != whole);
+    for (std::size_t k = 0; k < whole.size(); ++k)
+        CHECK(target[k] + model->sediment->volume.sea_beds[k] == approx(whole[k]).epsilon(1e-6));
+}
+
 // The whole beam of 7 degrees sees the bottom within 10 m and 10 / cos(7 degrees) = 10.08 m;
 // the tail behind it is exponential. The pulse's own side lobes end two bins behind.
 TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope") {

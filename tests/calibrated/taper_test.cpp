@@ -117,32 +117,28 @@ TEST_CASE("taper: long footprints hold the scatterers of short ones, each once")
     CHECK(static_cast<double>(differ) < 2e-3 * static_cast<double>(exact.size()));
 }
 
-// A trapezoid with its centroid at `position`: its edge_v is 1 + wedge s long at the place s of
-// edge_u. Scatterers about the centroid instead of the middle would lie up to a third of edge_u
-// off.
+// A trapezoid: its edge_v is 1 + wedge s long at the place s of edge_u. Scatterers about the
+// centroid instead of the middle would lie up to a third of edge_u off.
 TEST_CASE("taper: the scatterers of a wedge lie on it, about its centroid") {
     Draws draws(7);
     for (int run = 0; run < 8; ++run) {
-        CAPTURE(run);
         const Eigen::AngleAxisf turn(draws.between(0.0F, 6.0F), Eigen::Vector3f::UnitX());
-        Sample sample = patch_of({40.0F, draws.between(-1.0F, 1.0F), 0.0F}, {-1.0F, 0.0F, 0.0F},
-                                 turn * Eigen::Vector3f(0.0F, draws.between(0.5F, 1.0F), 0.0F),
-                                 turn * Eigen::Vector3f(0.0F, 0.0F, draws.between(0.5F, 1.0F)));
+        const Eigen::Vector3f u = draws.between(0.5F, 1.0F) * (turn * Eigen::Vector3f::UnitY());
+        const Eigen::Vector3f v = draws.between(0.5F, 1.0F) * (turn * Eigen::Vector3f::UnitZ());
+        Sample sample = patch_of({40.0F, 0.3F, 0.0F}, {-1.0F, 0.0F, 0.0F}, u, v);
         sample.wedge = draws.between(-1.0F, 1.0F);
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        int count = 0;
-        float farthest = 0.0F;
+        Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+        float farthest = 0.0F;  // in half edges
         for_each_scatterer({sample}, [&](const Scatterers& found, int k) {
             const Eigen::Vector3f p(found.pieces.x[k], found.pieces.y[k], found.pieces.z[k]);
             const Eigen::Vector3f d = p - sample.middle();
             const float s = d.dot(sample.edge_u) / sample.edge_u.squaredNorm();
             const float t = d.dot(sample.edge_v) / sample.edge_v.squaredNorm();
             farthest = std::max({farthest, std::fabs(s), std::fabs(t) - sample.wedge * s});
-            sum += p.cast<double>();
-            ++count;
+            sum += p.cast<double>().homogeneous();
         });
-        REQUIRE(count > 500);
+        REQUIRE(sum.w() > 500.0);
         CHECK(farthest < 1.02F);  // the width of a fan's column varies, too
-        CHECK((sum / count - sample.position.cast<double>()).norm() < 0.02);
+        CHECK((sum.hnormalized() - sample.position.cast<double>()).norm() < 0.02);
     }
 }

@@ -94,6 +94,22 @@ TEST_CASE("targets: with speckle a small highlight is steady, and energies are r
     }
 }
 
+TEST_CASE("targets: with speckle they have the texture that they have without") {
+    const BallScene ball({8.0, 0.3, 0.2}, 0.1, 48);
+    const auto engine = engine_of(ball.scene, EngineKind::rays);
+    const auto factor = [&](SpeckleMode mode) {
+        SonarConfig config = target_sonar(SonarKind::imaging, mode).config;
+        const auto energy = [&](double texture) {
+            config.instrument.speckle.texture = texture;
+            return energy_by(make_sonar(config, {}), ball.scene, *engine, {}, {.seed = 3},
+                             {.multipath = false, .random = 1});
+        };
+        return energy(3.0) / energy(0.0);
+    };
+    CHECK(std::fabs(factor(SpeckleMode::none) - 1.0) > 0.1);
+    CHECK(factor(SpeckleMode::scene) == approx(factor(SpeckleMode::none)).epsilon(0.01));
+}
+
 // The highlight of a sphere of radius a has a normal distribution of RMS a s across.
 TEST_CASE("targets: what a wall hides of a highlight has no echo") {
     const Sonar sonar = target_sonar(SonarKind::imaging);

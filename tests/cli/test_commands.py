@@ -31,12 +31,6 @@ COMMANDS = [command for group in GROUPS.values() for command in group if command
 class Texts(Sandbox):
     maxDiff = None
 
-    def test_commands(self):
-        self.assertEqual(GROUPS, {"Make": ["new", "render", "merge", "import-holoocean", "import-poses"],
-                                  "Look": ["preview", "inspect", "gallery"],
-                                  "Check": ["validate", "verify", "status", "report", "compare"],
-                                  "Use": ["export", "calibrate"], "Learn": ["preset", "keys"]})
-
     def test_examples_name_commands_and_options_that_there_are(self):
         for command in COMMANDS:
             page = lines_of(command, "--help")

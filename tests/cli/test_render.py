@@ -99,8 +99,7 @@ class Render(Sandbox):
         self.write("path.csv", path_csv(poses))
         ours, theirs = pty.openpty()
         with subprocess.Popen([SONARSIM, "render", "mission.yaml", "--no-files", "-j1"], cwd=self.folder,
-                              env={**os.environ, "TERM": "xterm"}, stdout=subprocess.DEVNULL,
-                              stderr=theirs) as process:
+                              env={**os.environ, "TERM": "xterm"}, stdout=subprocess.DEVNULL, stderr=theirs) as process:
             os.close(theirs)
             shown = b""
             try:

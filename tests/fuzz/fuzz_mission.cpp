@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <vector>
 
 #include "input/mission/parse.h"
 #include "input/mission/resolved.h"

@@ -1,6 +1,3 @@
-#include <cstring>
-#include <span>
-
 #include "simulate/product/object_table.h"
 #include "support/calibrated.h"
 #include "support/labelled.h"

@@ -1,4 +1,3 @@
-
 #include "core/text.h"
 #include "core/units.h"
 #include "input/scene/copies.h"

@@ -1,4 +1,3 @@
-
 #include "core/elementary.h"
 #include "core/ordered_pipeline.h"
 #include "core/text.h"

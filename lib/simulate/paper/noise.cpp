@@ -103,12 +103,12 @@ std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, P
     Lane normal{};
     Lane rayleigh{};
     for (std::size_t begin = 0; begin < image.size(); begin += pixels_per_block) {
-        const auto block = static_cast<std::uint32_t>(begin / pixels_per_block);
+        const auto number = static_cast<std::uint32_t>(begin / pixels_per_block);
         const auto pixels = image.subspan(begin, std::min(pixels_per_block, image.size() - begin));
         add_scales(noise, begin, pixels.size(), scale);
-        draw_rayleigh(block, key, rayleigh);
+        draw_rayleigh(number, key, rayleigh);
         // The normal draws multiply the signal; a block without signal does not need new ones.
-        if (any_signal(pixels)) draw_normal(block, key, normal);
+        if (any_signal(pixels)) draw_normal(number, key, normal);
         negative += apply(pixels, noise, scale, normal, rayleigh);
     }
     return negative;

@@ -49,8 +49,10 @@ std::optional<double> crossing_of_neighbours(const Ping& ping, int beam,
 /// `strongest` has the greatest value of all beams in each bin.
 double unexplained_share(const Sonar& sonar, const Ping& ping, int beam, const DetectedReturn& run,
                          std::span<const double> values, std::span<const float> strongest) {
-    constexpr double side_lobe = 0.003;  // times the echo in another beam
-    constexpr double background = 4.0;   // water's rises under the TVG
+    // -25 dB: side lobes of the preset of 400 kHz lie below -30 dB, 99 % of real returns above -17.
+    constexpr double side_lobe = 0.003;
+    // 6 dB: the volume of water under the TVG, and the best runs of noise, rise by 3 to 9 dB.
+    constexpr double background = 4.0;
     double own = 0.0;
     double other = 0.0;
     double above = 0.0;  // the background

@@ -34,9 +34,10 @@ double elevation_of(const Eigen::Vector3d& v) {
     return arctan2(v.z(), v.head<2>().norm());
 }
 
-/// Places in the frame that measures directions, before and after the elevation is that at
-/// transmission.
+/// A place in the frame that measures directions, to which `turn` rotates, before and after its
+/// elevation is that at transmission.
 struct MovedPlace {
+    Eigen::Quaterniond turn;
     Eigen::Vector3d turned, measured;
 };
 
@@ -51,13 +52,13 @@ double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
 MovedPlace moved_place(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& place) {
     const double time = two_way_time(motion, place);
     const double moving = reception_share(motion, shape) * time;
-    const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
-                                       (place - moving * motion.velocity_m_s);
+    const Eigen::Quaterniond turn = rotation_by(moving * motion.turn_rad_s).conjugate();
+    const Eigen::Vector3d from_there = turn * (place - moving * motion.velocity_m_s);
     const double range = 0.5 * motion.sound_speed_m_s * time;
     const Eigen::Vector3d turned = range * from_there.normalized();
-    if (!measures_azimuth(motion, shape)) return {turned, turned};
+    if (!measures_azimuth(motion, shape)) return {turn, turned, turned};
     const double azimuth = arctan2(turned.y(), turned.x());
-    return {turned, range * direction_of(azimuth, elevation_of(place))};
+    return {turn, turned, range * direction_of(azimuth, elevation_of(place))};
 }
 
 /// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
@@ -65,18 +66,17 @@ MovedPlace moved_place(const PingMotion& motion, ViewShape shape, const Eigen::V
 /// less than 1e-3.
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
-    const auto [turned, measured] = moved_place(motion, shape, place);
-    const double moving = reception_share(motion, shape) * two_way_time(motion, place);
-    const Eigen::Matrix3f turn = (Eigen::Quaterniond::FromTwoVectors(turned, measured) *
-                                  rotation_by(moving * motion.turn_rad_s).conjugate())
-                                     .toRotationMatrix()
-                                     .cast<float>();
+    const MovedPlace there = moved_place(motion, shape, place);
+    const Eigen::Matrix3f turn =
+        (Eigen::Quaterniond::FromTwoVectors(there.turned, there.measured) * there.turn)
+            .toRotationMatrix()
+            .cast<float>();
     Sample out = sample;
-    out.position = measured.cast<float>();
+    out.position = there.measured.cast<float>();
     out.edge_u = turn * sample.edge_u;
     out.edge_v = turn * sample.edge_v;
     out.normal = turn * sample.normal;
-    out.height_m *= static_cast<float>(measured.norm() / place.norm());
+    out.height_m *= static_cast<float>(there.measured.norm() / place.norm());
     return out;
 }
 

@@ -1,4 +1,3 @@
-
 #include "output/dataset/writer.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/fan.h"

@@ -1,4 +1,3 @@
-
 #include "core/elementary.h"
 #include "core/file.h"
 #include "core/units.h"
