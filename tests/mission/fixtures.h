@@ -8,7 +8,7 @@
 namespace sonarsim {
 
 /// The shortest mission that is valid, in five lines. A test adds what it is about.
-inline const std::string smallest_mission =
+static const std::string smallest_mission =
     "scene: {file: a.glb, materials: a.csv}\n"
     "trajectory: {file: a.tum}\n"
     "sensors:\n"

@@ -67,7 +67,8 @@ class ImageFormer {
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
         // Cells of amplitudes share scatterers with their neighbours, so the tails are of powers.
-        add_reverberation(model_.reverberation, powers ? grid : *mean_, form,
+        const EchoGrid& spread = powers || !mean_ ? grid : *mean_;
+        add_reverberation(model_.reverberation, spread, form,
                           powers ? 1.0F : speckle_gain_,
                           context_.draws.of(stream_named("reverberation")), grid);
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
