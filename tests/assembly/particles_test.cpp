@@ -12,7 +12,6 @@ const Trajectory three_poses{{10.0, {}}, {11.0, {}}, {12.5, {}}};
 ParticlesConfig school(ParticleRegion region, double count) {
     return {.name = "school",
             .class_name = "herring",
-            .kind = ParticleKind::fish,
             .length_m = {0.2, 0.3},
             .count = {count, count},
             .region = region,

@@ -168,7 +168,7 @@ variants: 1
 vary: [{key: sensors.fls.mount.rpy_deg.0, uniform: [-2, 2], per: ping}]
 vehicle: {navigation: {position_m: 0.1}}
 """, """file: box.gltf, objects: [{name: crate, file: crate.gltf, trajectory: {file: crate.csv}}],
-  particles: [{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}]""")
+  particles: [{name: school, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}]""")
 
 
 class DrawnScene:

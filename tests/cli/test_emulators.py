@@ -31,7 +31,7 @@ sensors:
 # 19 of the fish are in the fan, so their last vector is not full.
 CALIBRATED = """\
   particles:
-    - {name: school, class: fish, kind: fish, length_m: [0.2, 0.3], count: 25, region: ellipsoid,
+    - {name: school, class: fish, length_m: [0.2, 0.3], count: 25, region: ellipsoid,
        position_m: [3, 0, 1], size_m: [2, 2, 1]}
 sensors:
   fls: {kind: imaging, model: calibrated, azimuth_deg: 60, elevation_deg: 12, range_max_m: 10,

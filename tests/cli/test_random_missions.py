@@ -32,10 +32,10 @@ MAX_MEMORY = 6 << 30
 PLACE = re.compile(r"error: (mission\.json|materials\.csv|scene\.gltf|path\.csv"
                    r"|/[^ ]*\.(json|csv|gltf)|sensor '\w+'|[a-z_]+(\.[a-z_]+)*)\b")
 # Sections whose keys are drawn.
-SECTIONS = re.compile(r"|water|water\.profile|scene\.water_surface|vehicle(\..*)?|accuracy|octree|output|sensors\.NAME(\..*)?")
+SECTIONS = re.compile(r"|water|water\.profile|scene\.water_surface|vehicle(\..*)?|accuracy|output|sensors\.NAME(\..*)?")
 # What the small mission sets, or what asks for many missions.
 NOT_DRAWN = ("seed", "engine", "variants", "kind", "model", "range_min_m", "range_max_m", "range_bins", "azimuth_bins",
-             "folder", "leaf_m", "height_m", "named")
+             "folder", "octree_leaf_m", "height_m", "named")
 
 
 def keys_of(schema):
@@ -114,7 +114,7 @@ def write_mission(draw, keys, folder):
     models = {one["model"] for one in sensors.values()}
     mission = {"seed": draw.choice([0, 7, 2**64 - 1]), "name": "random", "sensors": sensors, "output": {"folder": "out"},
                "engine": draw.choice(["auto", "rays", "strips", *(["octree"] if models == {"paper"} else [])]),
-               "octree": {"leaf_m": min(max(size * draw.choice([0.1, 0.3, 5]), 0.001), 1000)},
+               "octree_leaf_m": min(max(size * draw.choice([0.1, 0.3, 5]), 0.001), 1000),
                "scene": {"file": "scene.gltf", "materials": "materials.csv"}, "trajectory": {"file": "path.csv"}}
     if draw.random() < 0.5:
         mission["scene"]["water_surface"] = {"height_m": at[2] + 3 * size}

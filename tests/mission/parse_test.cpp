@@ -112,7 +112,7 @@ TEST_CASE("what is wrong with a preset is said where it stands") {
 TEST_CASE("values that are read: engines, labels, classes, water, sensors in their order") {
     CHECK(parse(smallest_mission).engine == EngineKind::automatic);
     CHECK(parse(smallest_mission + "engine: \"rays\"\n").engine == EngineKind::rays);  // as JSON
-    CHECK(parse(smallest_mission + "octree: {leaf_m: 0.05}\n").octree.leaf_m == 0.05);
+    CHECK(parse(smallest_mission + "octree_leaf_m: 0.05\n").octree_leaf_m == 0.05);
     CHECK(parse(smallest_mission + "output: {labels: false}\n").output.labels.empty());
     CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 14);
     CHECK(parse(smallest_mission + "name: 5\n").name == "5");

@@ -20,7 +20,7 @@ TEST_CASE("an unknown key is refused with the key that is near, or with all that
           "7:7: unknown key 'add_sigm' (did you mean 'add_sigma'?)"},
          {"<<: {seed: 1}\n",
           "6:1: unknown key '<<'; known here: name, seed, water, scene, trajectory, vehicle, "
-          "sensors, accuracy, engine, octree, classes, labels, output, variants, vary"},
+          "sensors, accuracy, engine, octree_leaf_m, classes, labels, output, variants, vary"},
          {"    instrument: {frequency_hz: 1e6}\n",
           "6:5: unknown key 'instrument'; it needs model: calibrated"},
          {"    model: calibrated\n    noise: {add_sigma: 1}\n",
@@ -71,7 +71,7 @@ TEST_CASE("kinds of sonars, engines and places") {
           "6:9: unknown engine 'octre' (did you mean 'octree'?); known: auto, rays, octree, "
           "strips"},
          {"engine: slices\n", "6:9: unknown engine 'slices'; known: auto, rays, octree, strips"},
-         {"octree: {leaf_m: nan}\n", "6:18: 'leaf_m' must be a finite number, not 'nan'"},
+         {"octree_leaf_m: nan\n", "6:16: 'octree_leaf_m' must be a finite number, not 'nan'"},
          {"    shutter: {groups: 2}\n",
           "6:14: shutter.groups needs moves_in_ping: true: a sonar at rest during a ping "
           "has all beams from one pose"}});
@@ -221,16 +221,19 @@ TEST_CASE("particles: what is refused, and where") {
         "scene:\n  file: a.glb\n  materials: a.csv\n  particles:\n"
         "    - {name: p, position_m: [1, 2, 3], ";
     const std::string points = "target_strength_db: -40, count: 3";
-    const std::string length =
-        "kind: fish needs a length_m above 0, and no other kind has one (length_m is ";
+    const std::string one =
+        "targets need one of target_strength_db, length_m and radius_m, other than 0 "
+        "(target_strength_db is [0, 0], length_m is ";
     check_refused(
         before,
-        {{"kind: fish, count: 3", "5:46: " + length + "[0, 0])"},
-         {"kind: bubbles, radius_m: 0.001, length_m: 0.2, count: 3",
-          "5:82: " + length + "[0.2, 0.2])"},
+        {{"count: 3", "5:7: " + one + "[0, 0], radius_m is [0, 0])"},
+         {"radius_m: 0.001, length_m: 0.2, count: 3",
+          "5:67: " + one + "[0.2, 0.2], radius_m is [0.001, 0.001])"},
+         {"length_m: [0, 0.2], count: 3", "5:50: length_m must be above 0 (length_m is [0, 0.2])"},
          {"target_strength_db: -40", "5:7: 'count' must be above 0 (count is [0, 0])"},
          {points + ", rise_m_s: 1",
-          "5:85: rise_m_s is for kind: bubbles; others have a drift_m_s (rise_m_s is 1)"}},
+          "5:85: rise_m_s is for bubbles, which have a radius_m; others have a drift_m_s (rise_m_s "
+          "is 1)"}},
         particles("calibrated"));
     check_refused(before,
                   {{points,

@@ -23,7 +23,7 @@ scene:
        class: target}
     - {name: tyre, files: t.glb, area_min_m: [0, 1], area_max_m: [2, 3]}
   particles:
-    - {name: cod, class: cod, kind: fish, length_m: [0.3, 0.5], count: 7, region: ellipsoid,
+    - {name: cod, class: cod, length_m: [0.3, 0.5], count: 7, region: ellipsoid,
        position_m: [1, 2, 3], size_m: [4, 5, 6], drift_m_s: [0.1, 0, 0]}
   water_surface: {height_m: 3, roughness: 0.2}
 trajectory: {file: a.tum}
@@ -56,7 +56,7 @@ TEST_CASE("the keys of a composed scene") {
     CHECK(scene.scatter[1].files == std::vector<std::filesystem::path>{"/base/t.glb"});
     CHECK(scene.scatter[1].yaw_deg == std::array{0.0, 360.0});
     REQUIRE(scene.particles.size() == 1);
-    CHECK(scene.particles[0].kind == ParticleKind::fish);
+    CHECK(scene.particles[0].kind() == ParticleKind::fish);
     CHECK(scene.particles[0].length_m == std::array{0.3, 0.5});
     CHECK(scene.particles[0].count == std::array{7.0, 7.0});
     CHECK(scene.water_surface->roughness == 0.2);
@@ -79,8 +79,8 @@ TEST_CASE("a composed scene is written as it is read, and goes to another machin
 
 TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its rule") {
     const std::string head =
-        "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n  area: {min_m: [0, 1], max_m: [10, "
-        "5]}\n";
+        "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n  area_min_m: [0, 1]\n  "
+        "area_max_m: [10, 5]\n";
     const Mission mission = parse(
         head +
         "  scatter:\n    - {name: a, files: [m.glb, n.glb, o.glb, p.glb], stock: [can, net]}\n"
@@ -104,7 +104,7 @@ TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its 
     CHECK(clutter.count == std::array{20.0, 20.0});
     CHECK(clutter.bury == std::array{0.1, 0.1});
     CHECK(clutter.scale == ClutterConfig().scale);
-    CHECK((clutter.unlabelled && clutter.overlap));
+    CHECK(clutter.overlap);
     CHECK(reads_back(cluttered));
 }
 
@@ -114,12 +114,12 @@ TEST_CASE("clutter: by default no kind that a rule of scatter labels") {
         files += ", m.glb";
     const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1, size_m: [9, 9]}\n";
     const std::string clutter = "  clutter: {density_per_m2: 0.5, files: [" + files + "]}\n";
-    for (const std::string unlabelled : {"false", "true"}) {
-        const Mission mission = parse(
-            head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], unlabelled: " +
-            unlabelled + "}]\n" + clutter + tail);
+    for (const std::string name : {"pipe", "clutter"}) {
+        const Mission mission =
+            parse(head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], class: " +
+                  name + "}]\n" + clutter + tail);
         const std::vector<std::string>& kinds = mission.scene.scatter.at(1).stock;
-        CHECK(std::ranges::count(kinds, "pipe") == (unlabelled == "true" ? 1 : 0));
+        CHECK(std::ranges::count(kinds, "pipe") == (name == "clutter" ? 1 : 0));
         CHECK(std::ranges::count(kinds, "rope") == 1);
     }
 }
@@ -146,5 +146,5 @@ TEST_CASE("what is refused of stock, clutter and areas") {
            "4:49: an area needs both");
     begins("  clutter: 3\n", "4:12: 'clutter' must be a section");
     begins("  clutter: {stock: [net]}\n", "4:12: 'clutter' needs the key 'density_per_m2'");
-    begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:32: min_m must be below max_m");
+    begins("  area_min_m: [0, 0]\n  area_max_m: [0, 1]\n", "5:15: area_min_m must be below");
 }

@@ -55,7 +55,7 @@ TEST_CASE("measured errors: the same for any number of threads, and below the go
 TEST_CASE("measured errors: a coarse octree is warned of, with the key to change") {
     Mission mission = one_sensor();
     mission.engine = EngineKind::octree;
-    mission.octree.leaf_m = 0.3;
+    mission.octree_leaf_m = 0.3;
     const std::vector<Warning> warnings = error_warnings(mission, errors_of(mission, 2));
     REQUIRE(warnings.size() == 1);
     CHECK(number_of(warnings[0].code) == "W29");

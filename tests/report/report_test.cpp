@@ -66,9 +66,9 @@ TEST_CASE("a report has a sane row per setting") {
     Mission mission = small_mission("unused");
     mission.sensors.resize(1);
     const Json report =
-        report_of(mission, {{"strips", "relative_l1=0.3", EngineKind::strips, {}, 0.3, false},
-                            {"strips", "relative_l1=0.01", EngineKind::strips, {}, 0.01, true},
-                            {"octree", "leaf_m=0.04", EngineKind::octree, {0.04}, 0.03, false}});
+        report_of(mission, {{"strips", "relative_l1=0.3", EngineKind::strips, 0.02, 0.3, false},
+                            {"strips", "relative_l1=0.01", EngineKind::strips, 0.02, 0.01, true},
+                            {"octree", "leaf_m=0.04", EngineKind::octree, 0.04, 0.03, false}});
     REQUIRE(report["rows"].size() == 3);
     CHECK(report["poses"] == 3);
     for (const Json& row : report["rows"]) {
@@ -135,7 +135,7 @@ TEST_CASE("the settings hold the mission's own setting once, marked, and no need
     CHECK(marked(make_settings(mission, true)) ==
           std::vector<std::string>{"auto relative_l1=0.05"});
     mission.engine = EngineKind::octree;
-    mission.octree.leaf_m = 0.03;
+    mission.octree_leaf_m = 0.03;
     CHECK(marked(make_settings(mission, true)) == std::vector<std::string>{"octree leaf_m=0.03"});
     // Bins of 9.9 m / 48 = 20.6 cm: leaves below 5.2 cm are left out.
     for (const Setting& setting : make_settings(mission, false)) {

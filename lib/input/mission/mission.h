@@ -28,10 +28,6 @@ struct AccuracyConfig {
     double relative_l1 = 0.03;  ///< error goal of the noise-free image
 };
 
-struct OctreeConfig {
-    double leaf_m = 0.02;  ///< edge of the leaves
-};
-
 /// Gives a class to all nodes whose names match a pattern.
 struct ClassConfig {
     std::string nodes;      ///< `*` stands for any text, `?` for any one byte
@@ -131,7 +127,7 @@ struct Mission {
     std::vector<SonarConfig> sensors;  ///< in the order of the file
     AccuracyConfig accuracy;
     EngineKind engine = EngineKind::automatic;
-    OctreeConfig octree;
+    double octree_leaf_m = 0.02;
     std::vector<ClassConfig> classes;  ///< in the order of the file; the first match applies
     LabelConfig labels;
     OutputConfig output;
@@ -152,12 +148,6 @@ void describe(auto& v, AccuracyConfig& c) {
     v.number("relative_l1", c.relative_l1, between(AccuracyConfig::min_relative_l1, 0.5),
              "error goal of the image without noise: the sum of its absolute errors over its sum. "
              "The sampling is derived from it");
-}
-
-void describe(auto& v, OctreeConfig& c) {
-    // Leaves below a millimetre are finer than any sonar's bins.
-    v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
-             "edge of the octree's leaves; the octree is the paper's, a baseline");
 }
 
 void describe(auto& v, ClassConfig& c) {
@@ -223,7 +213,9 @@ void describe(auto& v, Mission& c) {
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_names,
              "method that finds the visible surface; sensors.md has what `auto` takes");
-    v.section("octree", c.octree, "settings of the octree");
+    // Leaves below a millimetre are finer than any sonar's bins.
+    v.number("octree_leaf_m", c.octree_leaf_m, between(1e-3, 1e3),
+             "edge of the octree's leaves; the octree is the paper's, a baseline");
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "
               "node applies");

@@ -87,7 +87,6 @@ struct ScatterConfig {
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool overlap = false;
     bool align = false;
-    bool unlabelled = false;
     Location place = {};
 
     /// The class of the objects of a file.
@@ -97,18 +96,15 @@ struct ScatterConfig {
     }
 };
 
+/// The class of unlabelled things, which is background.
+inline constexpr const char* clutter_class = "clutter";
+
 /// Unlabelled things on the bottom, which become a rule of `scatter` when a mission is read.
 struct ClutterConfig {
     std::array<double, 2> density_per_m2{};
     std::vector<std::string> stock;
     std::array<double, 2> scale{0.3, 1.2};
     std::array<double, 2> bury{0, 0.6};
-};
-
-/// The default area of scattered objects.
-struct AreaConfig {
-    std::array<double, 2> min_m{};  ///< x, y
-    std::array<double, 2> max_m{};
 };
 
 /// An image whose pixels are heights, which becomes the bottom.
@@ -141,7 +137,8 @@ struct SceneConfig {
     std::optional<AppliedMapConfig> backscatter_map = {};
     std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
-    std::optional<AreaConfig> area = {};
+    std::optional<std::array<double, 2>> area_min_m = {};  ///< x, y: the default area of `scatter`
+    std::optional<std::array<double, 2>> area_max_m = {};
     std::vector<ScatterConfig> scatter = {};
     std::optional<ClutterConfig> clutter = {};  ///< empty after reading: a rule of `scatter`
     std::vector<ParticlesConfig> particles = {};
@@ -196,20 +193,32 @@ void describe(auto& v, ObjectConfig& c) {
 
 inline constexpr Limits any_share_buried = {-10, 1};
 
+/// Describes the corners of the area of a rule of `scatter` or of all.
+void describe_area(auto& v, auto& c, const char* meaning) {
+    v.array("area_min_m", c.area_min_m, any_position_m, meaning);
+    v.array("area_max_m", c.area_max_m, any_position_m, "its largest x and y");
+    v.require(c.area_min_m.has_value() == c.area_max_m.has_value(), {"area_min_m", "area_max_m"},
+              "an area needs both area_min_m and area_max_m");
+    v.require(
+        !c.area_min_m || !c.area_max_m ||
+            ((*c.area_min_m)[0] < (*c.area_max_m)[0] && (*c.area_min_m)[1] < (*c.area_max_m)[1]),
+        {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+}
+
 void describe(auto& v, ScatterConfig& c) {
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
     v.text("stock", c.stock, "kinds of things of the program, in place of `files`");
     v.path("files", c.files,
            "a file of a mesh as in `objects`, or a list of them, each equally likely");
     v.text("class", c.class_name,
-           "class of the objects, for labels; default: the kind of `stock`, else NAME");
+           "class of the objects, for labels; default: the kind of `stock`, else NAME; `clutter` "
+           "is background");
     v.number("count", c.count, {0, 1e5}, "number of objects");
     v.number("density_per_m2", c.density_per_m2, between(0, 1e3),
              "objects for each square metre, in place of `count`");
-    v.array("area_min_m", c.area_min_m, any_position_m,
-            "least x and y of the area, in which objects lie wholly; default: `scene.area`, else "
-            "the bottom");
-    v.array("area_max_m", c.area_max_m, any_position_m, "its largest x and y");
+    describe_area(v, c,
+                  "least x and y of the area, in which objects lie wholly; default: that of the "
+                  "scene, else the bottom");
     v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
     v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
     v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
@@ -224,16 +233,9 @@ void describe(auto& v, ScatterConfig& c) {
              "least distance between two objects, seen from above");
     v.flag("overlap", c.overlap, "objects may lie on and in others");
     v.flag("align", c.align, "objects stand upright on the slope below them");
-    v.flag("unlabelled", c.unlabelled, "their class is background");
     v.require(!c.files.empty(), {"stock", "files"}, "a rule of 'scatter' needs 'stock' or 'files'");
     v.require(c.stock.empty() || c.files.size() % c.stock.size() == 0, {"stock", "files"},
               "'stock' and 'files': give one of the two");
-    v.require(c.area_min_m.has_value() == c.area_max_m.has_value(), {"area_min_m", "area_max_m"},
-              "an area needs both area_min_m and area_max_m");
-    v.require(
-        !c.area_min_m || !c.area_max_m ||
-            ((*c.area_min_m)[0] < (*c.area_max_m)[0] && (*c.area_min_m)[1] < (*c.area_max_m)[1]),
-        {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
               {"count"}, "'count' must be a whole number or two of them");
 }
@@ -243,13 +245,6 @@ void describe(auto& v, ClutterConfig& c) {
     v.text("stock", c.stock, "default: stones, boards, panels, ropes, weed and others");
     v.number("scale", c.scale, any_scale, "as in `scatter`");
     v.number("bury", c.bury, any_share_buried, "as in `scatter`");
-}
-
-void describe(auto& v, AreaConfig& c) {
-    v.array("min_m", c.min_m, any_position_m, "its least x and y", required);
-    v.array("max_m", c.max_m, any_position_m, "its largest x and y", required);
-    v.require(c.min_m[0] < c.max_m[0] && c.min_m[1] < c.max_m[1], {"min_m", "max_m"},
-              "min_m must be below max_m in x and in y");
 }
 
 void describe(auto& v, HeightmapConfig& c) {
@@ -306,7 +301,7 @@ void describe(auto& v, SceneConfig& c) {
     v.section("seabed", c.seabed,
               "a bottom that is made from these numbers and the mission's seed");
     v.list_of("objects", c.objects, 0, "files that are placed in the scene one by one");
-    v.section("area", c.area, "default area of `scatter` and clutter");
+    describe_area(v, c, "least x and y of the default area of `scatter` and clutter");
     v.list_of("scatter", c.scatter, 0, "things or files that are placed on the bottom at random");
     v.section("clutter", c.clutter, "unlabelled things over the area, tilted and overlapping");
     v.list_of("particles", c.particles, 0,

@@ -48,7 +48,6 @@ struct NoiseConfig {
     double add_sigma = 0.0;        ///< Rayleigh scale of the additive noise, Eq. 11
     double mult_sigma = 0.0;       ///< standard deviation of the multiplicative noise, Eq. 13
     bool scale_with_range = true;  ///< additive noise grows with r^2 and the lobe, Eq. 10
-    double lobe_sigma_deg = 0.0;   ///< width of that lobe; 0 means azimuth_deg / 8
     double gain = 0.0;             ///< m of Eq. 12; 0 means the paper's value for the kind
 
     bool operator==(const NoiseConfig&) const = default;
@@ -80,9 +79,6 @@ void describe(auto& v, NoiseConfig& c) {
              "standard deviation of the normal noise that multiplies every pixel; 0 is off");
     v.flag("scale_with_range", c.scale_with_range,
            "the added noise grows with range and towards the boresight");
-    v.number("lobe_sigma_deg", c.lobe_sigma_deg, between(0, 360),
-             "angular width of the added noise's growth towards the boresight; 0 means an eighth "
-             "of the full angle in azimuth");
     v.number("gain", c.gain, at_least(0),
              "factor m of Eq. 12 that multiplies every pixel; 0 means the paper's: 0.5 for imaging "
              "and profiling sonars, which halves their images, and 1 for others");

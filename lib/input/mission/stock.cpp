@@ -78,8 +78,8 @@ std::vector<std::string> unlabelled_kinds(const YamlNode* scatter) {
     if (scatter == nullptr) return kinds;
     for (const YamlNode& rule : scatter->items) {
         const YamlNode* const stock = rule.find("stock");
-        const YamlNode* const unlabelled = rule.find("unlabelled");
-        if (stock == nullptr || (unlabelled != nullptr && unlabelled->text == "true")) continue;
+        const YamlNode* const name = rule.find("class");
+        if (stock == nullptr || (name != nullptr && name->text == clutter_class)) continue;
         for (const YamlNode& kind : stock->items)
             std::erase(kinds, kind.text);
     }
@@ -97,7 +97,7 @@ YamlNode rule_of_clutter(YamlNode clutter, const YamlNode* scatter) {
         refuse(clutter.place, "'scatter' labels every kind of clutter; give 'clutter' its 'stock'");
     const ClutterConfig scales;
     YamlNode defaults = read_document(
-        "{name: clutter, overlap: true, unlabelled: true, class: clutter, roll_deg: [-15, 15], "
+        "{name: clutter, overlap: true, class: clutter, roll_deg: [-15, 15], "
         "pitch_deg: [-15, 15], scale: " +
             yaml_text(scales.scale) + ", bury: " + yaml_text(scales.bury) + ", stock: [" +
             listed(kinds) + "]}",
@@ -108,15 +108,19 @@ YamlNode rule_of_clutter(YamlNode clutter, const YamlNode* scatter) {
     return clutter;
 }
 
-/// The area of a rule without its own; nothing for all of a mesh.
-std::optional<AreaConfig> default_area(const SceneConfig& scene, const ScatterConfig& rule) {
-    if (scene.area) return scene.area;
-    if (scene.seabed && scene.seabed->size_m) return AreaConfig{{0.0, 0.0}, *scene.seabed->size_m};
-    if (!scene.seabed && !scene.heightmap && rule.density_per_m2[1] == 0.0) return std::nullopt;
-    refuse(rule.place,
-           "'{}' needs an area: area_min_m and area_max_m, or for all rules scene.area: {{min_m: "
-           "[x, y], max_m: [x, y]}}",
-           printable(rule.name));
+/// Gives a rule without an area the default one; none for all of a mesh.
+void set_area(const SceneConfig& scene, ScatterConfig& rule) {
+    rule.area_min_m = scene.area_min_m;
+    rule.area_max_m = scene.area_max_m;
+    if (rule.area_min_m) return;
+    if (scene.seabed && scene.seabed->size_m) {
+        rule.area_min_m = {0.0, 0.0};
+        rule.area_max_m = scene.seabed->size_m;
+    } else if (scene.seabed || scene.heightmap || rule.density_per_m2[1] > 0.0) {
+        refuse(rule.place,
+               "'{}' needs an area: area_min_m and area_max_m, here or for all rules in 'scene'",
+               printable(rule.name));
+    }
 }
 
 }  // namespace
@@ -148,12 +152,7 @@ void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder, 
 
 void complete_scatter(SceneConfig& scene) {
     for (ScatterConfig& rule : scene.scatter) {
-        if (!rule.area_min_m) {
-            const std::optional<AreaConfig> area = default_area(scene, rule);
-            if (!area) continue;
-            rule.area_min_m = area->min_m;
-            rule.area_max_m = area->max_m;
-        }
+        if (!rule.area_min_m) set_area(scene, rule);
         if (rule.density_per_m2[1] == 0.0) continue;
         const double area_m2 = ((*rule.area_max_m)[0] - (*rule.area_min_m)[0]) *
                                ((*rule.area_max_m)[1] - (*rule.area_min_m)[1]);

@@ -126,10 +126,9 @@ enum class ParticleRegion { box, ellipsoid };
 struct ParticlesConfig {
     std::string name;        ///< the targets are NAME_1, NAME_2, ...
     std::string class_name;  ///< "": the name
-    ParticleKind kind = ParticleKind::points;
-    std::array<double, 2> target_strength_db{};  ///< for points, dB re 1 m^2
-    std::array<double, 2> length_m{};            ///< for fish; 0: not given
-    std::array<double, 2> radius_m{};            ///< for bubbles; 0: not given
+    std::array<double, 2> target_strength_db{};  ///< points; dB re 1 m^2
+    std::array<double, 2> length_m{};            ///< fish; 0: none
+    std::array<double, 2> radius_m{};            ///< bubbles; 0: none
     std::array<double, 2> count{};
     ParticleRegion region = ParticleRegion::box;
     std::array<double, 3> position_m{};  ///< middle of the region, world
@@ -137,6 +136,12 @@ struct ParticlesConfig {
     std::array<double, 3> drift_m_s{};
     double rise_m_s = 0.0;  ///< for bubbles, which come back at the bottom of the region
     Location place = {};
+
+    ParticleKind kind() const {
+        return length_m[0] > 0.0   ? ParticleKind::fish
+               : radius_m[0] > 0.0 ? ParticleKind::bubbles
+                                   : ParticleKind::points;
+    }
 };
 
 /// The most particles of a group.
@@ -144,7 +149,6 @@ inline constexpr double max_particles = 1e6;
 /// Larger groups are one object of the labels each.
 inline constexpr double max_single_particles = 100;
 
-inline constexpr auto particle_kinds = choices_of<ParticleKind>("points", "fish", "bubbles");
 inline constexpr auto particle_regions = choices_of<ParticleRegion>("box", "ellipsoid");
 
 /// From a grain of dust to a ship.
@@ -155,13 +159,12 @@ void describe(auto& v, ParticlesConfig& c) {
            "name of the group; single targets are the instances NAME_1, NAME_2 and so on",
            required);
     v.text("class", c.class_name, "class of the targets, for labels; default: NAME");
-    v.choice("kind", c.kind, particle_kinds,
-             "`points` have a target_strength_db, `fish` a length_m, `bubbles` a radius_m; the "
-             "target strength of the last two follows from it and from the sonar's frequency");
     v.number("target_strength_db", c.target_strength_db, target_strengths_db,
              "target strength of points, dB re 1 m^2");
-    v.number("length_m", c.length_m, between(0, 30), "length of a fish");
-    v.number("radius_m", c.radius_m, between(0, 0.1), "radius of a bubble of air");
+    v.number("length_m", c.length_m, between(0, 30),
+             "in place of it, the length of fish, whose target strength follows from it and from "
+             "the sonar's frequency");
+    v.number("radius_m", c.radius_m, between(0, 0.1), "likewise, the radius of bubbles of air");
     v.number("count", c.count, {0, max_particles},
              "number of targets; groups of 100 or more are one object of the labels");
     v.choice("region", c.region, particle_regions,
@@ -173,18 +176,16 @@ void describe(auto& v, ParticlesConfig& c) {
     v.number("rise_m_s", c.rise_m_s, between(0, 10),
              "speed at which bubbles rise, in addition; at the top of the region they start again "
              "at its bottom");
-    const bool is_fish = c.kind == ParticleKind::fish;
-    const bool are_bubbles = c.kind == ParticleKind::bubbles;
-    const bool are_points = c.kind == ParticleKind::points;
-    v.require(is_fish == (c.length_m[0] > 0.0), {"kind", "length_m"},
-              "kind: fish needs a length_m above 0, and no other kind has one");
-    v.require(are_bubbles == (c.radius_m[0] > 0.0), {"kind", "radius_m"},
-              "kind: bubbles needs a radius_m above 0, and no other kind has one");
-    v.require(are_points == (c.target_strength_db[0] != 0.0 || c.target_strength_db[1] != 0.0),
-              {"kind", "target_strength_db"},
-              "kind: points needs a target_strength_db other than 0, and no other kind has one");
-    v.require(are_bubbles || c.rise_m_s == 0.0, {"kind", "rise_m_s"},
-              "rise_m_s is for kind: bubbles; others have a drift_m_s");
+    const bool are_points = c.target_strength_db != std::array<double, 2>{};
+    v.require((c.length_m[1] > 0.0) + (c.radius_m[1] > 0.0) + are_points == 1,
+              {"target_strength_db", "length_m", "radius_m"},
+              "targets need one of target_strength_db, length_m and radius_m, other than 0");
+    v.require((c.length_m[0] > 0.0) == (c.length_m[1] > 0.0), {"length_m"},
+              "length_m must be above 0");
+    v.require((c.radius_m[0] > 0.0) == (c.radius_m[1] > 0.0), {"radius_m"},
+              "radius_m must be above 0");
+    v.require(c.kind() == ParticleKind::bubbles || c.rise_m_s == 0.0, {"rise_m_s"},
+              "rise_m_s is for bubbles, which have a radius_m; others have a drift_m_s");
     v.require(c.count[1] > 0.0, {"count"}, "'count' must be above 0");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
               {"count"}, "'count' must be a whole number or two of them");

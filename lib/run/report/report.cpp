@@ -16,13 +16,13 @@ namespace sonarsim {
 
 namespace {
 
-Setting setting_of(EngineKind kind, double goal, const OctreeConfig& octree = {}) {
+Setting setting_of(EngineKind kind, double goal, double leaf_m = EngineSettings{}.octree.leaf_m) {
     const bool is_octree = kind == EngineKind::octree;
     return {.engine = std::ranges::find(engine_names, kind, &Choice<EngineKind>::value)->name,
-            .name = is_octree ? "leaf_m=" + number_text(octree.leaf_m)
+            .name = is_octree ? "leaf_m=" + number_text(leaf_m)
                               : "relative_l1=" + number_text(goal),
             .kind = kind,
-            .octree = is_octree ? octree : OctreeConfig{},
+            .leaf_m = leaf_m,
             .relative_l1 = goal};
 }
 
@@ -175,7 +175,7 @@ std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, con
         const bool is_rays = setting.kind == EngineKind::rays;
         trial.engine = is_rays && rays ? rays
                                        : make_engine(assembly.scene,
-                                                     engine_settings(setting.kind, setting.octree));
+                                                     engine_settings(setting.kind, setting.leaf_m));
         if (is_rays) rays = trial.engine;
     }
     return trials;
@@ -230,10 +230,10 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     }
     for (const double leaf : leaves) {
         if (leaf >= 0.25 * finest_bin_m(mission))
-            settings.push_back(setting_of(EngineKind::octree, own_goal, {leaf}));
+            settings.push_back(setting_of(EngineKind::octree, own_goal, leaf));
     }
     settings.push_back(setting_of(EngineKind::automatic, own_goal));
-    Setting own = setting_of(mission.engine, own_goal, mission.octree);
+    Setting own = setting_of(mission.engine, own_goal, mission.octree_leaf_m);
     own.current = true;
     std::erase_if(settings, [&](const Setting& setting) {
         return setting.engine == own.engine && setting.name == own.name;
@@ -248,7 +248,7 @@ const char* goal_of(const Setting& setting, double worst_relative_l1) {
 }
 
 std::string unsupported(const Setting& setting, const Assembly& assembly) {
-    const EngineSettings engine = engine_settings(setting.kind, setting.octree);
+    const EngineSettings engine = engine_settings(setting.kind, setting.leaf_m);
     std::string refusal = unsupported(engine, assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
         if (refusal.empty()) refusal = unsupported(engine, sonar.settings.view);

@@ -164,11 +164,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
             background[class_named(mission, objects, "background", name)] = 1;
         }
     }
-    for (const ScatterConfig& rule : mission.scene.scatter) {
-        for (std::size_t i = 0; rule.unlabelled && i < rule.files.size(); ++i) {
-            if (const auto index = class_index(objects, rule.class_of(i))) background[*index] = 1;
-        }
-    }
+    if (const auto index = class_index(objects, clutter_class)) background[*index] = 1;
     return background;
 }
 

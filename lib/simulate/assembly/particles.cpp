@@ -55,8 +55,8 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
     const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(config.size_m.data());
     const Eigen::Vector3d velocity =
         Eigen::Vector3d(config.drift_m_s.data()) + config.rise_m_s * Eigen::Vector3d::UnitZ();
-    const std::array<double, 2>& sizes = config.kind == ParticleKind::fish ? config.length_m
-                                         : config.kind == ParticleKind::bubbles
+    const std::array<double, 2>& sizes = config.kind() == ParticleKind::fish ? config.length_m
+                                         : config.kind() == ParticleKind::bubbles
                                              ? config.radius_m
                                              : config.target_strength_db;
     std::vector<DrawnParticle> out(count_of(config, draws));
@@ -103,7 +103,7 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
 void add_group(const ParticlesConfig& config, std::vector<DrawnParticle>& targets, Scene& scene) {
     require_new_name(config, scene);
     const bool is_single = static_cast<double>(targets.size()) < max_single_particles;
-    const std::uint32_t material = material_of(config.kind, scene);
+    const std::uint32_t material = material_of(config.kind(), scene);
     std::uint32_t instance = 0;
     if (!is_single) instance = add_instance(config, config.name, scene);
     for (std::size_t k = 0; k < targets.size(); ++k) {
@@ -116,8 +116,8 @@ void add_group(const ParticlesConfig& config, std::vector<DrawnParticle>& target
 
 double section_of(const ParticlesConfig& config, const DrawnParticle& drawn, const Mission& mission,
                   double frequency_hz) {
-    if (config.kind == ParticleKind::points) return power_of_db(drawn.size);
-    if (config.kind == ParticleKind::fish) return fish_section_m2(drawn.size, frequency_hz);
+    if (config.kind() == ParticleKind::points) return power_of_db(drawn.size);
+    if (config.kind() == ParticleKind::fish) return fish_section_m2(drawn.size, frequency_hz);
     const auto& surface = mission.scene.water_surface;
     const double depth_m = (surface ? surface->height_m : 0.0) - drawn.particle.start_m.z();
     return bubble_section_m2(drawn.size, depth_m, mission.water.density_kg_m3,

@@ -187,12 +187,9 @@ PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
     model.info.random_terms = terms_by_name;
     model.info.noise_growth = sonar.range_scale;
     if (!noise.scale_with_range) return model;
-    const double sigma =
-        radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
+    const double sigma = radians(config.azimuth_deg / 8.0);
     for (std::size_t j = 0; j < sonar.beam_azimuths_rad.size(); ++j) {
-        const double phi = sonar.beam_azimuths_rad[j];
-        // The narrowest lobes that a mission may set underflow to 0 in radians.
-        const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
+        const double sigmas = sonar.beam_azimuths_rad[j] / sigma;
         model.pixel_noise.lobe_scale[j] =
             static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
     }

@@ -230,12 +230,12 @@ std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, cons
     return stages;
 }
 
-EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree) {
-    return {.type = kind, .octree = {.leaf_m = octree.leaf_m}};
+EngineSettings engine_settings(EngineKind kind, double octree_leaf_m) {
+    return {.type = kind, .octree = {.leaf_m = octree_leaf_m}};
 }
 
 EngineSettings engine_settings(const Mission& mission) {
-    return engine_settings(mission.engine, mission.octree);
+    return engine_settings(mission.engine, mission.octree_leaf_m);
 }
 
 std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor) {

@@ -22,7 +22,7 @@ struct EngineSettings {
     std::shared_ptr<const Caster> caster = {};
 };
 
-/// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is
+/// Makes the engine over a scene, which must outlive it. Throws InputError when octree_leaf_m is
 /// too small for the scene, and std::runtime_error when memory does not suffice.
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
 

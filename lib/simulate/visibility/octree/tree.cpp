@@ -158,7 +158,7 @@ std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> tri
 
 std::string too_small_leaves(double length_m, double leaf_m) {
     if (length_m + 2.0 * leaf_m <= std::ldexp(leaf_m, max_levels)) return "";
-    return "octree.leaf_m of " + number_text(leaf_m) + " is too small for a scene " +
+    return "octree_leaf_m of " + number_text(leaf_m) + " is too small for a scene " +
            number_text(std::ceil(length_m)) + " m long; use engine: auto or larger leaves";
 }
 
