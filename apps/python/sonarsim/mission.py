@@ -29,10 +29,9 @@ def open(mission: Path | Mapping[str, Any], set: Mapping[str, Any] | None = None
          paths_from: Path | None = None) -> Mission:
     """Opens a mission: a YAML file, or a dict with the same keys.
 
-    `set` changes keys, as --set does: {"sensors.fls.range_bins": 256}. A text is read as on the
-    command line; another value is taken as it is. Relative paths of the mission start at
-    `paths_from`: by default the folder of the file, or the current folder for a dict.
-    InputError for anything wrong in the mission or the files that it names.
+    `set` changes keys, as --set does: {"sensors.fls.range_bins": 256}. A text is read as on the command line; another
+    value is taken as it is. Relative paths of the mission start at `paths_from`: by default the folder of the file, or
+    the current folder for a dict. InputError for anything wrong in the mission or the files that it names.
     """
     opened = load(mission, set, paths_from=paths_from)
     if not opened.variants:
@@ -85,13 +84,11 @@ class Ping:
     variant: int | None
     """The index of the variant; None for a mission without variants."""
     image: npt.NDArray[np.float32]
-    """The intensities: [range, azimuth] as in polar/; for a side-scan sonar, an echosounder or a
-    scanning sonar the values of its record."""
+    """The intensities: [range, azimuth] as in polar/; where the kind has a record, the values of one row of it."""
     raw: npt.NDArray[np.integer[Any]] | None
     """The integers that the instrument of the calibrated model delivers, else None."""
     labels: dict[str, Any]
-    """The labels of output.labels by the names of their files: arrays, `objects` as a dict, the lines
-    of `yolo` as text."""
+    """The labels of output.labels by the names of their files: arrays, and `objects` as a dict."""
     pose: npt.NDArray[np.float64]
     """The vehicle: t, x, y, z, qx, qy, qz, qw, in seconds and metres."""
     _metadata: str
@@ -108,8 +105,7 @@ class Ping:
 
 
 class Mission:
-    """A mission, as open() returns it. Any number of threads may make pings at a time: the
-    interpreter lock is released while a ping is made."""
+    """A mission, as open() returns it. Many threads may make pings at a time, as each releases the interpreter lock."""
 
     def __init__(self, loaded: _sonarsim.LoadedMission):
         self._loaded = loaded
