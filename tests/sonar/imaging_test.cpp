@@ -109,8 +109,7 @@ TEST_CASE("noise is a function of seed, sensor and ping; without it the seed doe
 
 TEST_CASE("the lobe of the noise is 1.5 along the boresight, an eighth of the view wide (Eq. 10)") {
     SonarConfig config;
-    config.azimuth_bins = 1;
-    CHECK(lobe_of(config)[0] == 1.5F);
-    config.azimuth_bins = 8;  // the beams beside the boresight lie half a width from it
-    CHECK(std::fabs(lobe_of(config)[4] - 1.0 - 0.5 * std::exp(-0.125)) < 1e-6);
+    config.azimuth_bins = 9;
+    CHECK(lobe_of(config)[4] == 1.5F);
+    CHECK(std::fabs(lobe_of(config)[5] - 1.0 - 0.5 * std::exp(-0.5 * 64.0 / 81.0)) < 1e-6);
 }

@@ -103,11 +103,11 @@ PingRecord record_of_kind(const WriterContext& context, const std::string& stem,
 std::vector<std::string> sweep_files(const WriterContext& context, const std::string& stem,
                                      const std::vector<std::string>& extensions) {
     std::vector<std::string> files;
-    for (std::size_t sweep = 0; sweep < scan_sweeps(context.sonar().config, context.pings);
-         ++sweep) {
-        for (const std::string& extension : extensions)
-            files.push_back(scan_file_name(stem, sweep, extension));
-    }
+    for_each_sweep(context.sonar().config, context.pings,
+                   [&](std::size_t sweep, std::size_t /*begin*/, std::size_t /*end*/) {
+                       for (const std::string& extension : extensions)
+                           files.push_back(scan_file_name(stem, sweep, extension));
+                   });
     return files;
 }
 

@@ -1,6 +1,7 @@
 #include "simulate/paper/echoes.h"
 
 #include <array>
+#include <limits>
 
 #include "simulate/trace/arrivals.h"
 
@@ -24,6 +25,7 @@ struct Footprints {
     Floats half_m;                         ///< half the extent of a piece in range
     Floats shift_m;  ///< middle of that extent, relative to the centre of the piece
     Floats weight;   ///< area of a piece, m^2
+    Floats last_m;   ///< range of a wedge's farthest corner; no limit for other footprints
 };
 
 // Pieces of a bin: the contrast of a mean over 64 draws is an eighth of one draw's.
@@ -32,6 +34,22 @@ constexpr float max_pieces_per_bin = 64.0F;
 /// The squared length of (x, y, z) in the order in which Eigen adds.
 float squared(float x, float y, float z) {
     return x * x + (y * y + z * z);
+}
+
+constexpr float no_limit = std::numeric_limits<float>::max();
+
+/// The range of the farthest corner, since a norm is convex. The corners of a wedge lie
+/// +-u +- (1 +- wedge) v from its middle.
+float last_range(const Sample& sample) {
+    if (sample.wedge == 0.0F) return no_limit;
+    const Eigen::Vector3f middle = sample.middle();
+    float last_m = 0.0F;
+    for (const float side : {-1.0F, 1.0F}) {
+        const Eigen::Vector3f end = middle + side * sample.edge_u;
+        const Eigen::Vector3f half = (1.0F + side * sample.wedge) * sample.edge_v;
+        last_m = std::max({last_m, arrival_range(end - half), arrival_range(end + half)});
+    }
+    return last_m;
 }
 
 void load(std::span<const Sample> samples, std::span<const Material> materials, Footprints& f) {
@@ -48,6 +66,7 @@ void load(std::span<const Sample> samples, std::span<const Material> materials, 
         f.height_m[k] = sample.height_m;
         f.area_m2[k] = sample.area_m2;
         f.reflection[k] = materials[sample.material].reflection * sample.strength;
+        f.last_m[k] = last_range(sample);
     }
 }
 
@@ -151,6 +170,16 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
     return std::fma(s, u[axis][k], std::fma(t, v[axis][k], c[axis][k]));
 }
 
+/// Ends the extents of echoes at `last_m`: the pieces of a wedge are those of its parallelogram.
+void end_at(float last_m, std::size_t begin, Echoes& echoes) {
+    for (std::size_t k = begin; k < begin + lanes; ++k) {
+        const float first = std::min(echoes.range_m[k] - echoes.half_m[k], last_m);
+        const float last = std::min(echoes.range_m[k] + echoes.half_m[k], last_m);
+        echoes.range_m[k] = 0.5F * (first + last);
+        echoes.half_m[k] = 0.5F * (last - first);
+    }
+}
+
 /// Writes the echoes of footprint k, of `count` pieces, from number `begin` on, and 7 lanes more.
 void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std::size_t begin,
                   Echoes& to) {
@@ -182,6 +211,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std
             intensity[lane] = reflection * std::min(height / r, 1.0F);
         }
         std::fill_n(to.half_m.data() + at, lanes, f.half_m[k]);
+        if (f.last_m[k] < no_limit) end_at(f.last_m[k], at, to);
         std::fill_n(to.weight.data() + at, lanes, f.weight[k]);
         if (!cells) continue;
         std::uint32_t* const __restrict low = to.cell_low.data() + at;

@@ -13,11 +13,6 @@ int scan_steps(const SonarConfig& config) {
     return std::max(1, static_cast<int>(std::floor(config.sector_deg / config.step_deg + 0.5)));
 }
 
-std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings) {
-    const auto steps = static_cast<std::size_t>(scan_steps(config));
-    return (pings + steps - 1) / steps;
-}
-
 std::string scan_file_name(const std::string& stem, std::size_t sweep,
                            const std::string& extension) {
     return fmt::format("{}_{:04}{}", stem, sweep, extension);

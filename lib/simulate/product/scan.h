@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -14,9 +15,6 @@ namespace sonarsim {
 
 /// The number of steps, and so of pings, in one sweep: the sector divided by the step, rounded.
 int scan_steps(const SonarConfig& config);
-
-/// The number of sweeps in this many pings, with the unfinished one at the end.
-std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings);
 
 /// STEM_NNNN.EXTENSION, the name of a file that belongs to a sweep; `extension` has its dot.
 std::string scan_file_name(const std::string& stem, std::size_t sweep,
@@ -50,17 +48,12 @@ class ScanDisplay {
     Ping image_;
 };
 
-/// Calls show(ping, step) for each ping of a sonar, and finish(sweep, end) after the last ping of
-/// each sweep, the unfinished one too; `end` is the number of pings so far.
-template <class Show, class Finish>
-void for_each_sweep(const SonarConfig& config, std::size_t pings, const Show& show,
-                    const Finish& finish) {
+/// Calls draw(sweep, begin, end) for each sweep of a sonar, the unfinished one too, with its pings.
+template <class Draw>
+void for_each_sweep(const SonarConfig& config, std::size_t pings, const Draw& draw) {
     const auto steps = static_cast<std::size_t>(scan_steps(config));
-    for (std::size_t ping = 0; ping < pings; ++ping) {
-        show(ping, scan_step(config, ping));
-        const std::size_t end = ping + 1;
-        if (end % steps == 0 || end == pings) finish(ping / steps, end);
-    }
+    for (std::size_t begin = 0; begin < pings; begin += steps)
+        draw(begin / steps, begin, std::min(begin + steps, pings));
 }
 
 }  // namespace sonarsim

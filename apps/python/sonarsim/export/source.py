@@ -204,10 +204,9 @@ def records_of(sensor, part_of_ping):
         with data.reading(facts):
             sheet = data.read_json(facts.read_bytes())
             shape = sheet["width"], sheet["height"]
-        # The last picture of sweeps shows pings of the sweep before, too, if it is cut short.
         end = min((k + 1) * steps, len(part_of_ping))
         each = data.whole(strip.get("pings_per_pixel", 1), 1, "pings_per_pixel") if strip else steps
-        shown = [set(part_of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
+        shown = [set(part_of_ping[first:min(first + each, end)]) for first in range(k * steps, end, each)]
         one = picture(sensor, path, facts, "strip" if strip else "sweep", shape,
                       [parts.pop() if len(parts) == 1 else None for parts in shown])
         one.rows_are_pings = not strip or strip.get("pings_along", "y") == "y"

@@ -34,21 +34,21 @@ void write_raw_pictures(const WriterContext& context, const RecordFile& records,
     };
     if (shape.pictures == RecordPictures::sweeps) {
         const auto steps = static_cast<std::size_t>(scan_steps(config));
-        std::vector<T> display(values * steps);
-        for_each_sweep(
-            config, context.pings,
-            [&](std::size_t k, int step) {
-                read(k);
-                for (std::size_t i = 0; i < values; ++i)
-                    display[i * steps + static_cast<std::size_t>(step)] = ping[i];
-            },
-            [&](std::size_t sweep, std::size_t) {
-                ImageFile image(folder / scan_file_name("raw", sweep, ".png"),
-                                static_cast<int>(steps), static_cast<int>(values), kind);
-                for (std::size_t i = 0; i < values; ++i)
-                    image.row(std::span<const T>(display).subspan(i * steps, steps));
-                image.finish();
-            });
+        for_each_sweep(config, context.pings,
+                       [&](std::size_t sweep, std::size_t begin, std::size_t end) {
+                           std::vector<T> display(values * steps);
+                           for (std::size_t k = begin; k < end; ++k) {
+                               read(k);
+                               const auto step = static_cast<std::size_t>(scan_step(config, k));
+                               for (std::size_t i = 0; i < values; ++i)
+                                   display[i * steps + step] = ping[i];
+                           }
+                           ImageFile image(folder / scan_file_name("raw", sweep, ".png"),
+                                           static_cast<int>(steps), static_cast<int>(values), kind);
+                           for (std::size_t i = 0; i < values; ++i)
+                               image.row(std::span<const T>(display).subspan(i * steps, steps));
+                           image.finish();
+                       });
         return;
     }
     const int rows = picture_rows(context.pings);

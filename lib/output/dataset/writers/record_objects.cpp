@@ -201,7 +201,7 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
     return visible;
 }
 
-/// Writes a file for every sweep. Steps that an unfinished sweep lacks show the sweep before.
+/// Writes a file for every sweep.
 void write_sweeps(const WriterContext& context, const std::filesystem::path& folder) {
     const ObjectRecords source(context, folder);
     const SonarConfig& config = context.sonar().config;
@@ -210,9 +210,10 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
     const auto masks = [&](const Ids& ids) {
         return object_masks(fan_values(fan->by_column, ids, std::uint16_t{0}), fan->frame.height);
     };
-    RecordValues display(scan_steps(config), config.range_bins, config.sector_deg >= 360.0);
-    const auto write_sweep = [&](std::size_t sweep, std::size_t end) {
-        const std::size_t begin = sweep * static_cast<std::size_t>(display.lines);
+    const auto write_sweep = [&](std::size_t sweep, std::size_t begin, std::size_t end) {
+        RecordValues display(scan_steps(config), config.range_bins, config.sector_deg >= 360.0);
+        for (std::size_t ping = begin; ping < end; ++ping)
+            source.read(ping, 1, static_cast<std::size_t>(scan_step(config, ping)), display);
         const std::vector<ObjectMask> shadows = masks(display.shadow);
         RecordValues drawn = display;
         const MaskFrame frame = frame_of(whole.settings.view, source.cell());
@@ -235,12 +236,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
                         {"pings_per_pixel", 1}};
         write_file(folder / scan_file_name("objects", sweep, ".json"), objects_text(head, objects));
     };
-    for_each_sweep(
-        config, context.pings,
-        [&](std::size_t ping, int step) {
-            source.read(ping, 1, static_cast<std::size_t>(step), display);
-        },
-        write_sweep);
+    for_each_sweep(config, context.pings, write_sweep);
 }
 
 }  // namespace

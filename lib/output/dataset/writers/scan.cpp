@@ -12,28 +12,27 @@ void write_displays(const WriterContext& context, const std::shared_ptr<const Fa
                     const RecordFile& records, const std::filesystem::path& folder) {
     const std::string stem(context.kind().record.name);
     std::vector<float> bins(context.sonar().config.range_bins);
-    ScanDisplay display(context.sonar());
-    for_each_sweep(
-        context.sonar().config, context.pings,
-        [&](std::size_t ping, int) {
-            records.read(ping, std::as_writable_bytes(std::span(bins)));
-            display.show(ping, bins);
-        },
-        [&](std::size_t sweep, std::size_t) {
-            const Ping& image = display.image();
-            write_file(folder / scan_file_name(stem, sweep, ".npy"),
-                       npy_bytes(image.intensity, image.range_bins, image.beams));
-            write_file(folder / scan_file_name(stem, sweep, ".png"),
-                       png_bytes(display_fan(*map, *context.sonar().settings.model, image,
-                                             context.full_scale()),
-                                 map->frame.width, map->frame.height));
-        });
+    for_each_sweep(context.sonar().config, context.pings,
+                   [&](std::size_t sweep, std::size_t begin, std::size_t end) {
+                       ScanDisplay display(context.sonar());
+                       for (std::size_t ping = begin; ping < end; ++ping) {
+                           records.read(ping, std::as_writable_bytes(std::span(bins)));
+                           display.show(ping, bins);
+                       }
+                       const Ping& image = display.image();
+                       write_file(folder / scan_file_name(stem, sweep, ".npy"),
+                                  npy_bytes(image.intensity, image.range_bins, image.beams));
+                       write_file(folder / scan_file_name(stem, sweep, ".png"),
+                                  png_bytes(display_fan(*map, *context.sonar().settings.model,
+                                                        image, context.full_scale()),
+                                            map->frame.width, map->frame.height));
+                   });
 }
 
 }  // namespace
 
-/// scan.npy: float32 [ping, range]. The display after each sweep of the head, and after the
-/// last, unfinished one: scan_NNNN.npy, float32 [range, step]; scan_NNNN.png, 8 bits, boresight up.
+/// scan.npy: float32 [ping, range]. The display of each sweep of the head, with 0 where the
+/// last one has no ping: scan_NNNN.npy, float32 [range, step]; scan_NNNN.png, 8 bits, boresight up.
 Writer make_scan_writer(const WriterContext& context) {
     const std::string stem(context.kind().record.name);
     const auto map = context.assembly.fans->map(whole_scan(context.sonar()));
