@@ -70,17 +70,11 @@ value_of = $(patsubst $(2)=%,%,$(filter $(2)=%,$(call settings,$(1))))
 key = $(if $(filter $(1),$(noise_keys)),$(SENSOR:%=sensors.%.noise.$(1)),$(1))
 sets = $(foreach a,$(axes),$(foreach k,$(call key,$(a)),--set '$(k)=$(call value_of,$(1),$(a))'))
 
-# A stamp for each point; whether its dataset is there is looked up in are_done.
+# A stamp for each point. `render` says at once whether its dataset is complete, and of these inputs.
 targets := $(folders:%=$(OUT)/finished/%)
 point = $(strip $(foreach p,$(points),$(if $(filter $(call folder,$(p)),$(@F)),$(p))))
-# A dataset is done if it is complete, the variants of a mission if all of them are.
-are_done = $(if $(targets),$(shell for stamp in $(targets:%='%'); do d='$(OUT)'/"$${stamp##*/}"; \
-    if [ -e "$$d/variants.json" ]; then all=$$(grep -c '"folder": "variant_' "$$d/variants.json"); else all=1; fi; \
-    whole=$$(grep -ls '"complete": *true' "$$d/dataset.json" "$$d"/variant_*/dataset.json | wc -l); \
-    [ "$$whole" -ne "$$all" ] || echo "$$stamp"; done))
-done := $(are_done)
 
-.PHONY: all again
+.PHONY: all $(targets)
 all: $(OUT)/index.csv
 
 # --shard: all of a point, even where the sweep runs in a task of a Slurm array.
@@ -89,20 +83,18 @@ note = $(OUT)/failed/$(@F).txt
 
 # After a signal make ends as well.
 $(targets): $(MISSION)
-	@mkdir -p '$(OUT)/failed' '$(OUT)/finished'; rm -f '$(note)'; echo "$(command)"
+	@mkdir -p '$(OUT)/failed' '$(OUT)/finished'; rm -f '$(note)'; [ -e '$@' ] || echo "$(command)"
 	@$(command) 2>'$(note)'; code=$$?; cat '$(note)' >&2; \
-	    if [ $$code -eq 0 ]; then rm '$(note)'; touch '$@'; elif [ $$code -gt 128 ]; then exit $$code; fi
-
-$(filter-out $(done),$(targets)): again
+	    if [ $$code -eq 0 ]; then rm '$(note)'; touch '$@'; else rm -f '$@'; [ $$code -le 128 ] || exit $$code; fi
 
 cell = $(if $(findstring $(comma),$(1)),"$(1)",$(1))
 row = $(subst $(space),$(comma),$(foreach a,$(axes),$(call cell,$(call value_of,$(1),$(a)))))
-whole = $(filter $(finished),$(OUT)/finished/$(call folder,$(1)))
+whole = $(filter $(finished),$(call folder,$(1)))
 # The points of this grid that failed; OUT/failed/ may have notes of earlier grids as well.
 failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 
-$(OUT)/index.csv: $(targets) again
-	@$(eval finished := $(are_done))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
+$(OUT)/index.csv: $(targets)
+	@$(eval finished := $(shell ls '$(OUT)/finished' 2>/dev/null))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
 	@rmdir '$(OUT)/failed' 2>/dev/null || :
 	@[ -z '$(strip $(failed))' ] || { \

@@ -85,7 +85,7 @@ TEST_CASE("receiver: foreign pulses come at their rate and with their level") {
     const std::vector<float> noise(rows_count, 1e-6F);
     const ImageRows rows{.bin_m = 0.05,
                          .bin_s = 0.02668 / rows_count,
-                         .pulse_bins = 2,
+                         .pulse_s = 2 * 0.02668 / rows_count,
                          .rows = rows_count,
                          .beams = 1,
                          .noise = noise};
@@ -128,8 +128,7 @@ TEST_CASE("receiver: long foreign pulses cover whole pings") {
     CHECK(whole > 0.9 * pings);
 }
 
-// A share of 0.3 of 4,000 pings is 1,200; 4.5 standard deviations are 130. The mean loss is 6
-// dB.
+// A share of 0.3 of 4,000 pings is 1,200; 4.5 standard deviations are 130. The mean loss is 6 dB.
 TEST_CASE("receiver: a share of the pings is weaker") {
     ReceiverConfig receiver;
     receiver.loss_share = 0.3;

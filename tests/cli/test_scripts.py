@@ -77,9 +77,11 @@ class Sweep(Sandbox):
                          ['seed,variants,folder', '1,1,"seed=1,variants=1"', '1,2,"seed=1,variants=2"'])
         spoilt = self.folder / "grid/seed=1,variants=2/variant_0001/dataset.json"
         spoilt.write_text(json.dumps({**json.loads(spoilt.read_text()), "complete": False}))
-        resumed = self.sweep(*grid)
-        self.assertEqual(resumed.stdout.count(" render "), 1, resumed.stdout)
+        self.sweep(*grid)
         self.assertTrue(self.dataset(spoilt.parent)["complete"])
+        self.write("path.csv", path_csv(4))
+        self.assertIn("2 points these failed", self.sweep(*grid, code=2).stderr)    # other inputs
+        self.assertEqual(self.index(), ["seed,variants,folder"])
 
     def test_a_seed_that_is_shared(self):
         (self.folder / "grid").mkdir()

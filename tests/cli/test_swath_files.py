@@ -6,7 +6,7 @@ import shutil
 import struct
 import unittest
 
-from sandbox import Rendered, Sandbox, box_gltf, python_with
+from sandbox import Rendered, Sandbox, box_gltf, python_with, with_keys
 
 # A flat sea floor at z = -10 of 60 x 60 m and a steel block on it, half a metre each way, at (6, -12).
 MISSION = """\
@@ -105,7 +105,8 @@ class SwathFiles(Rendered):
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):
-        self.assert_renders("--overwrite", "--set", "trajectory.rate_hz=8")     # cells of 0.2 m
+        pitched = (f"trajectory.waypoints.{k}.rpy_deg.1=5" for k in (0, 1))
+        self.assert_renders("--overwrite", *with_keys("trajectory.rate_hz=8", *pitched))     # cells of 0.2 m
         path = self.out / "sss/mosaic.tif"
         place = self.json("out/sss/mosaic.json")
         cell = place["cell_m"]

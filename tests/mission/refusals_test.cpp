@@ -229,7 +229,8 @@ TEST_CASE("particles: what is refused, and where") {
         {{"count: 3", "5:7: " + one + "[0, 0], radius_m is [0, 0])"},
          {"radius_m: 0.001, length_m: 0.2, count: 3",
           "5:67: " + one + "[0.2, 0.2], radius_m is [0.001, 0.001])"},
-         {"length_m: [0, 0.2], count: 3", "5:50: length_m must be above 0 (length_m is [0, 0.2])"},
+         {"length_m: [0, 0.2], count: 3",
+          "5:50: length_m and radius_m must be above 0 (length_m is [0, 0.2], radius_m is [0, 0])"},
          {"target_strength_db: -40", "5:7: 'count' must be above 0 (count is [0, 0])"},
          {points + ", rise_m_s: 1",
           "5:85: rise_m_s is for bubbles, which have a radius_m; others have a drift_m_s (rise_m_s "

@@ -100,11 +100,10 @@ TEST_CASE("rules of scatter have the scene's area, stock its files, clutter its 
                                     tail);
     REQUIRE(cluttered.scene.scatter.size() == 1);
     const ScatterConfig& clutter = cluttered.scene.scatter[0];
-    CHECK(clutter.class_of(0) == "clutter");
+    CHECK((clutter.class_of(0) == "clutter" && clutter.overlap));
     CHECK(clutter.count == std::array{20.0, 20.0});
     CHECK(clutter.bury == std::array{0.1, 0.1});
     CHECK(clutter.scale == ClutterConfig().scale);
-    CHECK(clutter.overlap);
     CHECK(reads_back(cluttered));
 }
 
@@ -115,9 +114,9 @@ TEST_CASE("clutter: by default no kind that a rule of scatter labels") {
     const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1, size_m: [9, 9]}\n";
     const std::string clutter = "  clutter: {density_per_m2: 0.5, files: [" + files + "]}\n";
     for (const std::string name : {"pipe", "clutter"}) {
-        const Mission mission =
-            parse(head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], class: " +
-                  name + "}]\n" + clutter + tail);
+        const Mission mission = parse(
+            head + "  scatter: [{name: a, files: [m.glb, n.glb], stock: [pipe, can], class: " +
+            name + "}]\n" + clutter + tail);
         const std::vector<std::string>& kinds = mission.scene.scatter.at(1).stock;
         CHECK(std::ranges::count(kinds, "pipe") == (name == "clutter" ? 1 : 0));
         CHECK(std::ranges::count(kinds, "rope") == 1);

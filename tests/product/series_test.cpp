@@ -36,20 +36,21 @@ TEST_CASE("bottom: neither a bright target on it nor noise above it misleads") {
 }
 
 TEST_CASE("bottom: a swath that is faint at nadir has its first return there") {
-    // As a side-scan sonar whose beam points to the side: the bottom from bin 400 of 1,500 on,
-    // first 20 dB and then less below its level; the water 38 dB below. Speckle over all.
+    // A beam that points to the side: the bottom from bin 400 of 1,500 on, 20 dB and then less below
+    // its level; water 38 dB below, in half of the columns with a surface at bin 150; speckle.
     std::mt19937 random(7);
     std::exponential_distribution<double> speckle;
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<float> column(1500);
         for (int i = 0; i < 1500; ++i) {
             const double beam = std::clamp((i - 390) / 150.0, 0.0, 1.0);
-            const double mean = i < 400 ? 1.5e-4 : 0.01 + beam * beam;
+            const double windy = trial % 2 == 1 && i >= 150 ? 45.0 / (i * i) : 0.0;
+            const double mean = windy + (i < 400 ? 1.5e-4 : 0.01 + beam * beam);
             column[i] = static_cast<float>(mean * speckle(random));
         }
         CAPTURE(trial);
         CHECK(first_return(column).value() > 440);
-        const int first = first_return_of_swath(column).value();
+        const int first = first_return_of_swath(column, 150).value();
         CHECK((400 <= first && first < 425));
     }
 }

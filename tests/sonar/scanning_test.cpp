@@ -42,8 +42,7 @@ TEST_CASE("scanning: a sphere is seen when the head points at it, and at its ran
     for (std::uint32_t pose = 0; pose < 36; ++pose) {
         const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, pose});
         const double angle = head_angle_rad(sonar, pose);
-        // The sphere spans asin(0.2 / 3) = 3.8 degrees to either side, the beam 1; steps
-        // are 10.
+        // The sphere spans asin(0.2 / 3) = 3.8 degrees to either side, the beam 1; steps are 10.
         const bool aims = std::fabs(angle - radians(65)) < radians(4.0);
         const auto echo = std::ranges::find_if(ping.intensity, [](float x) { return x > 0.0F; });
         CHECK((echo != ping.intensity.end()) == aims);
@@ -61,7 +60,7 @@ TEST_CASE("scanning: the metadata tell the angle of the head, `every` counts its
     const Scene scene = sphere_at(0.0);
     const auto engine = make_rays_engine(scene);
     const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, 6});
-    const auto json = measured({sonar, Pose{}, 6, ping}, *engine);
+    const auto json = measured({sonar, Pose{}, 6, ping, {}}, *engine);
     CHECK(json.at("head_angle_rad") == approx(radians(-155)));
     CHECK(json.at("altitude_m").is_null());
 }

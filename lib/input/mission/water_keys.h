@@ -124,8 +124,8 @@ enum class ParticleRegion { box, ellipsoid };
 
 /// Point targets in the water. Pairs are limits of uniform draws.
 struct ParticlesConfig {
-    std::string name;        ///< the targets are NAME_1, NAME_2, ...
-    std::string class_name;  ///< "": the name
+    std::string name;                            ///< the targets are NAME_1, NAME_2, ...
+    std::string class_name;                      ///< "": the name
     std::array<double, 2> target_strength_db{};  ///< points; dB re 1 m^2
     std::array<double, 2> length_m{};            ///< fish; 0: none
     std::array<double, 2> radius_m{};            ///< bubbles; 0: none
@@ -180,10 +180,8 @@ void describe(auto& v, ParticlesConfig& c) {
     v.require((c.length_m[1] > 0.0) + (c.radius_m[1] > 0.0) + are_points == 1,
               {"target_strength_db", "length_m", "radius_m"},
               "targets need one of target_strength_db, length_m and radius_m, other than 0");
-    v.require((c.length_m[0] > 0.0) == (c.length_m[1] > 0.0), {"length_m"},
-              "length_m must be above 0");
-    v.require((c.radius_m[0] > 0.0) == (c.radius_m[1] > 0.0), {"radius_m"},
-              "radius_m must be above 0");
+    v.require(are_points || c.length_m[0] > 0.0 || c.radius_m[0] > 0.0, {"length_m", "radius_m"},
+              "length_m and radius_m must be above 0");
     v.require(c.kind() == ParticleKind::bubbles || c.rise_m_s == 0.0, {"rise_m_s"},
               "rise_m_s is for bubbles, which have a radius_m; others have a drift_m_s");
     v.require(c.count[1] > 0.0, {"count"}, "'count' must be above 0");

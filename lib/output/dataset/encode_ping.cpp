@@ -51,8 +51,9 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
     const Sonar& sonar = *at_pose;
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
     const std::uint64_t clipped = count_above(ping.intensity, white);
-    const auto metadata =
-        measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
+    const auto metadata = measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose,
+                                    ping, assembly.scene.water_surface},
+                                   *engine);
     LabelledPing labels;
     if (plan.on) {
         labels = label_for_writers(plan, assembly, sonar, *engine, traced, ping,

@@ -10,14 +10,9 @@ namespace sonarsim {
 Json describe_drawn(const DrawnValues& drawn) {
     Json json = Json::object();
     for (const auto& [key, value] : drawn) {
-        if (const auto number = parse_number(value)) {
-            json[key] = *number;
-        } else if (value == "true" || value == "false") {
-            json[key] = value == "true";
-        } else {
-            const bool quoted = value.size() > 1 && value.front() == '"';
-            json[key] = quoted ? value.substr(1, value.size() - 2) : value;
-        }
+        const Json parsed = Json::parse(value, nullptr, false);
+        const auto number = parse_number(value);  // .5 is no JSON
+        json[key] = parsed.is_primitive() ? parsed : number ? Json(*number) : Json(value);
     }
     return json;
 }

@@ -75,10 +75,8 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
 
 /// The number of a material that stands for the targets of a kind in labels; it has no surface.
 std::uint32_t material_of(ParticleKind kind, Scene& scene) {
-    const char* const name = kind == ParticleKind::fish      ? "fish"
-                             : kind == ParticleKind::bubbles ? "bubbles"
-                                                             : "points";
-    return material_number(scene, name);
+    constexpr std::array names{"points", "fish", "bubbles"};
+    return material_number(scene, names[static_cast<std::size_t>(kind)]);
 }
 
 std::uint32_t add_instance(const ParticlesConfig& config, const std::string& name, Scene& scene) {

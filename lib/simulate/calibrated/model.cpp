@@ -207,13 +207,14 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
     std::vector<float> mean;
     if (detected.changes() && context.terms.random > 0) mean.resize(ping.intensity.size());
     form_look(*this, traced, context, mean, ping);
-    const ImageRows rows{.range_min_m = context.view.range_min_m,
-                         .bin_m = context.view.bin_m(),
-                         .bin_s = 2.0 * context.view.bin_m() / sound_speed_m_s,
-                         .pulse_bins = amplitude_taps.reach + 1,
-                         .rows = context.view.range_bins,
-                         .beams = context.view.beams,
-                         .noise = analog_noise_values};
+    const ImageRows rows{
+        .range_min_m = context.view.range_min_m,
+        .bin_m = context.view.bin_m(),
+        .bin_s = 2.0 * context.view.bin_m() / sound_speed_m_s,
+        .pulse_s = pulse_band(instrument.pulse, context.view.bin_m(), sound_speed_m_s).pulse_s,
+        .rows = context.view.range_bins,
+        .beams = context.view.beams,
+        .noise = analog_noise_values};
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
         if (context.terms.random > 1)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include "core/elementary.h"
@@ -129,8 +130,10 @@ std::optional<int> first_return(std::span<const float> column) {
     return smoothed.edge(half);
 }
 
-std::optional<int> first_return_of_swath(std::span<const float> column) {
-    constexpr float min_share = 1e-3F;  // a share of the bed's level
+std::optional<int> first_return_of_swath(std::span<const float> column,
+                                         std::optional<int> water_surface) {
+    constexpr float min_share = 1e-3F;        // a share of the bed's level
+    constexpr double surface_clutter = 1.79;  // a rise to six times the value; less may be clutter
     const int bins = static_cast<int>(column.size());
     const int window = std::max(8, bins / 64);
     if (bins < window) return std::nullopt;
@@ -144,6 +147,11 @@ std::optional<int> first_return_of_swath(std::span<const float> column) {
         if (!rise) break;
         const int edge = smoothed.edge(static_cast<float>(exponential(rise->half_way)),
                                        std::max(rise->at - rise->window / 2, 0));
+        if (water_surface && std::abs(edge - *water_surface) <= 2 * window) {
+            begin = edge + window;
+            continue;
+        }
+        if (water_surface && 2.0 * (rise->half_way - rise->before) < surface_clutter) return {};
         const int behind = edge + 2 * window;
         if (behind + 2 * window >= bins ||
             logarithms.mean(behind, behind + 2 * window) >= rise->before + Logarithms::min_rise)

@@ -13,10 +13,16 @@ double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
 }
 
+/// The bin of a range; nothing beyond range_max.
+std::optional<int> bin_of(const SonarConfig& config, std::optional<double> range_m) {
+    if (!range_m || *range_m > config.range_max_m) return std::nullopt;
+    return static_cast<int>(std::floor((*range_m - config.range_min_m) / width_of_bin_m(config)));
+}
+
 /// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.
 double echo_at_ground(const Sonar& sonar, const SwathRow& row, double ground_m, int side) {
-    const double altitude_m = row.swath.altitude_m;
-    const double slant_m = std::sqrt(ground_m * ground_m + altitude_m * altitude_m);
+    const double distance_m = row.swath.distance_m;
+    const double slant_m = std::sqrt(ground_m * ground_m + distance_m * distance_m);
     const auto half = static_cast<std::ptrdiff_t>(row.values.size() / 2);
     const double column_m = slant_m - column_offset_m(sonar.config);
     const auto bin = static_cast<std::ptrdiff_t>(column_m / sonar.settings.view.bin_m());
@@ -49,41 +55,51 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
     return bins;
 }
 
-std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam) {
+std::optional<double> scattering_surface_m(const std::optional<WaterSurface>& surface,
+                                           const Pose& T_world_sensor) {
+    if (!surface || !surface->wind_m_s) return std::nullopt;
+    const double above_m = surface->height_m - T_world_sensor.translation.z();
+    return above_m > 0.0 ? std::optional(above_m) : std::nullopt;
+}
+
+std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
+                                     std::optional<double> surface_m) {
     std::vector<float> column(ping.range_bins);
     for (int i = 0; i < ping.range_bins; ++i)
         column[i] = ping.at(i, beam);
-    const std::optional<int> bin = first_return_of_swath(column);
+    const std::optional<int> bin = first_return_of_swath(column, bin_of(sonar.config, surface_m));
     if (!bin) return std::nullopt;
     return sonar.middle_m(*bin);
 }
 
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
-                              std::span<const float> row) {
+                              std::span<const float> row, std::optional<double> surface_m) {
     const double bin_m = sonar.settings.view.bin_m();
     const std::size_t half = row.size() / 2;
     const auto blank = static_cast<std::size_t>(blank_columns(sonar.config));
-    std::optional<double> altitude;
+    std::optional<double> first;
     for (const int side : {1, -1}) {
         std::vector<float> column;
         for (std::size_t k = blank; k < half; ++k)
             column.push_back(row[side > 0 ? half - 1 - k : half + k]);
-        const std::optional<int> bin = first_return_of_swath(column);
+        const std::optional<int> bin =
+            first_return_of_swath(column, bin_of(sonar.config, surface_m));
         if (!bin) continue;
         const double range =
             (static_cast<double>(blank) + *bin + 0.5) * bin_m + column_offset_m(sonar.config);
-        altitude = std::min(altitude.value_or(range), range);
+        first = std::min(first.value_or(range), range);
     }
-    // The sensor looks along x and has port along y.
-    const Eigen::Vector3d port = T_world_sensor.rotation * Eigen::Vector3d::UnitY();
-    const double level = port.head<2>().norm();
-    if (!altitude || level < 1e-3) return std::nullopt;
+    // The sensor looks down along x and has the bow along z.
+    const Eigen::Vector3d bow = T_world_sensor.rotation * Eigen::Vector3d::UnitZ();
+    const double level = bow.head<2>().norm();
+    if (!first || level < 1e-3) return std::nullopt;
+    const Eigen::Vector2d ahead = bow.head<2>() / level;
     const double range_max = sonar.config.range_max_m;
-    return Swath{
-        .nadir_m = T_world_sensor.translation.head<2>(),
-        .port = port.head<2>() / level,
-        .altitude_m = *altitude,
-        .reach_m = std::sqrt(std::max(0.0, range_max * range_max - *altitude * *altitude))};
+    return Swath{.nadir_m = T_world_sensor.translation.head<2>() + *first * bow.z() * ahead,
+                 .port = {-ahead.y(), ahead.x()},
+                 .distance_m = *first,
+                 .altitude_m = *first * level,
+                 .reach_m = std::sqrt(std::max(0.0, range_max * range_max - *first * *first))};
 }
 
 void add_bounds(const Swath& swath, GroundBounds& bounds) {

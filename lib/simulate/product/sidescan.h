@@ -32,20 +32,27 @@ int waterfall_columns(const SonarConfig& config);
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
 /// Slant range of the first bottom return in a beam, m: the middle of its bin
-/// (first_return_of_swath()). Nothing if the side is dark.
-std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam);
+/// (first_return_of_swath()). Nothing if the side is dark. `surface_m`: scattering_surface_m().
+std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
+                                     std::optional<double> surface_m);
 
-/// The swath of a side-scan ping on ground taken as level, at the depth of the first return.
+/// The range of the water's surface straight above a sonar; nothing if it does not scatter.
+std::optional<double> scattering_surface_m(const std::optional<WaterSurface>& surface,
+                                           const Pose& T_world_sensor);
+
+/// The swath of a side-scan ping on ground taken as level, at the depth of the first return. The
+/// plane of the scan, across the bow, meets it in a line.
 struct Swath {
-    Eigen::Vector2d nadir_m = Eigen::Vector2d::Zero();  ///< world x, y below the sonar
-    Eigen::Vector2d port = Eigen::Vector2d::Zero();     ///< unit vector, world
+    Eigen::Vector2d nadir_m = Eigen::Vector2d::Zero();  ///< world x, y nearest on the line
+    Eigen::Vector2d port = Eigen::Vector2d::Zero();     ///< unit vector along it, world
+    double distance_m = 0.0;                            ///< from the sonar to the line
     double altitude_m = 0.0;                            ///< altitude above the bottom
     double reach_m = 0.0;                               ///< ground range at range_max
 };
 
-/// The swath of a row; nothing if it shows no bottom, or if the sides point straight up and down.
+/// The swath of a row; nothing if it shows no bottom, or if the bow points straight up or down.
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
-                              std::span<const float> row);
+                              std::span<const float> row, std::optional<double> surface_m);
 
 void add_bounds(const Swath& swath, GroundBounds& bounds);
 
@@ -56,7 +63,7 @@ struct SwathRow {
 
 /// Adds the ground between two rows that follow each other, in steps of half a bin across and a
 /// quarter of a cell along, over which the echo changes linearly. A point at ground range g has the
-/// echo at slant range sqrt(g^2 + altitude^2). At the share u of the reach it weighs 4 u (1 - u)
+/// echo at slant range sqrt(g^2 + distance^2). At the share u of the reach it weighs 4 u (1 - u)
 /// times the ground that it stands for: least at nadir, where the bottom is bright, and at the
 /// swath's end, so that no line begins at a seam. Rows whose headings differ by 10 degrees, or that
 /// are ten cells apart, have no ground between them; the later one is added alone.

@@ -56,6 +56,7 @@ struct PingView {
     const Pose& T_world_vehicle;
     std::uint32_t pose;  ///< index on the trajectory
     const Ping& ping;
+    const std::optional<WaterSurface>& water_surface;
 };
 
 struct KindOfSonar {

@@ -31,7 +31,10 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
         const SonarAtPose then(context.mission, sonar, pose);
         const Pose T_world_sensor =
             sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, pose);
-        visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
+        visit(
+            {pose, T_world_sensor, values,
+             swath_of(sonar, T_world_sensor, values,
+                      scattering_surface_m(context.assembly.scene.water_surface, T_world_sensor))});
     }
 }
 

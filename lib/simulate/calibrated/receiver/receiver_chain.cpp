@@ -48,8 +48,8 @@ void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, Phi
     const double window_s = rows.rows * rows.bin_s;
     const double mean_gap = 1.0 / (receiver.interference_per_s * window_s);
     const auto level = static_cast<float>(power_of_db(receiver.interference_db));
-    const double length_s = receiver.interference_s;
-    const int bins = std::max(rows.pulse_bins, static_cast<int>(length_s / rows.bin_s));
+    const double length_s = std::max(receiver.interference_s, rows.pulse_s);
+    const int bins = std::max(1, static_cast<int>(std::lround(length_s / rows.bin_s)));
     double at = -length_s / window_s;  // in windows; long pulses may begin before the first
     for (std::uint32_t pulse = 0;; ++pulse) {
         const PhiloxBlock draw = philox({pulse, 0, 0, 1}, key);

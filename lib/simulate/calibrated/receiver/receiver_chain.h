@@ -16,8 +16,8 @@ namespace sonarsim {
 struct ImageRows {
     double range_min_m = 0.0;
     double bin_m = 1.0;
-    double bin_s = 1.0;  ///< two-way time of a bin
-    int pulse_bins = 1;  ///< length of a pulse
+    double bin_s = 1.0;    ///< two-way time of a bin
+    double pulse_s = 0.0;  ///< length of a pulse
     int rows = 0;
     int beams = 0;
     std::span<const float> noise;  ///< [rows] the value of the mean noise before the converter

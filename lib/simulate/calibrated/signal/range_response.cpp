@@ -132,7 +132,8 @@ PulseBand pulse_band(const PulseConfig& pulse, double bin_m, double sound_speed_
     const double k = band.wavelengths * unit_width;
     PulseBand out;
     out.sweep_hz = k * sound_speed_m_s / (2.0 * resolution_m);
-    out.noise_hz = taper_loss(band) / std::max(pulse.duration_s, 1.0 / out.sweep_hz);
+    out.pulse_s = std::max(pulse.duration_s, 1.0 / out.sweep_hz);
+    out.noise_hz = taper_loss(band) / out.pulse_s;
     out.length_m = taper_loss(band) * resolution_m / k;
     return out;
 }

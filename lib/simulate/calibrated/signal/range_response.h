@@ -36,6 +36,7 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db);
 /// range is the factor k (0.886 for uniform weights) times c / (2 B).
 struct PulseBand {
     double sweep_hz = 0.0;  ///< B
+    double pulse_s = 0.0;   ///< length of the transmitted pulse
     /// The bandwidth of the noise: its power over its spectrum. The matched filter of a pulse of
     /// length T and energy E gives the ratio E / N0 of echo to white noise; weights lose the factor
     /// mean(w^2) / mean(w)^2. So the bandwidth is this factor over T, T = 1 / B without a code.
