@@ -160,7 +160,7 @@ def export(options):
                 statistics.add(piece)
         for part in options.split or ["train"]:
             if part not in statistics.parts:
-                raise ValueError(no_pictures(part, source.pictures[0], options))
+                raise ValueError(no_pictures(part, max(source.pictures, key=lambda one: len(set(one.parts))), options))
         layout.finish()
         formats.write_json(folder / "statistics.json", statistics.as_json())
     return print(f"{options.dest}: {options.format}\n{statistics.text()}")
