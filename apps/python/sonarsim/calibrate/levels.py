@@ -107,7 +107,8 @@ def fit_levels(windows, start, fit, mission=None, settings=()):
         low = np.min([values - 1.96 * errors for values, errors in found], axis=0)
         high = np.max([values + 1.96 * errors for values, errors in found], axis=0)
         numbers = [Bounded(*map(float, ends)) for ends in zip(found[0][0], low, high)]
-        if "tvg_log" in known or numbers[2].high - numbers[2].low <= WIDEST * abs(numbers[2].value):
+        value, low, high = numbers[2]
+        if "tvg_log" in known or (0.0 <= value <= 60.0 and high - low <= WIDEST * value):   # the key's limits
             break
     for name, number in zip(NUMBERS, numbers):
         if name not in known:
