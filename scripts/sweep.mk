@@ -10,7 +10,8 @@
 #
 #        SENSOR=fls add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
 #
-# Finished points are not rendered again; interrupted ones resume. -jN renders N points at a time, each
+# Finished points are not rendered again, and fail if they are of other inputs or another version of
+# sonarsim; interrupted ones resume. -jN renders N points at a time, each
 # on one thread. A point that fails does not stop the others: OUT/failed/ holds its messages, and the
 # sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none; signs
 # with a meaning to make or the shell are refused, such as $ ' " * ( ; and !.
@@ -94,7 +95,7 @@ whole = $(filter $(finished),$(call folder,$(1)))
 failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 
 $(OUT)/index.csv: $(targets)
-	@$(eval finished := $(shell ls '$(OUT)/finished' 2>/dev/null))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
+	@$(if $(findstring n,$(firstword -$(MAKEFLAGS))),,$(eval finished := $(shell ls '$(OUT)/finished' 2>/dev/null))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))"))))
 	@mv $@.part $@
 	@rmdir '$(OUT)/failed' 2>/dev/null || :
 	@[ -z '$(strip $(failed))' ] || { \

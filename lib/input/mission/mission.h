@@ -170,7 +170,7 @@ void describe(auto& v, LabelConfig& c) {
     v.text("background", c.background,
            "background classes, which are not objects and have no contrast, shadow or visible "
            "share. `auto` stands for the classes of the nodes that scene.bottom names and for the "
-           "class of the largest surface; `none` for no class");
+           "class of the largest surface; `none` for no class but clutter");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
     v.choice("mask", c.mask, mask_kinds,

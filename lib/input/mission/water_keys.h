@@ -162,8 +162,7 @@ void describe(auto& v, ParticlesConfig& c) {
     v.number("target_strength_db", c.target_strength_db, target_strengths_db,
              "target strength of points, dB re 1 m^2");
     v.number("length_m", c.length_m, between(0, 30),
-             "in place of it, the length of fish, whose target strength follows from it and from "
-             "the sonar's frequency");
+             "in place of it, the length of fish, which decides it with the sonar's frequency");
     v.number("radius_m", c.radius_m, between(0, 0.1), "likewise, the radius of bubbles of air");
     v.number("count", c.count, {0, max_particles},
              "number of targets; groups of 100 or more are one object of the labels");

@@ -18,12 +18,12 @@ namespace {
 
 Setting setting_of(EngineKind kind, double goal, double leaf_m = EngineSettings{}.octree.leaf_m) {
     const bool is_octree = kind == EngineKind::octree;
-    return {.engine = std::ranges::find(engine_names, kind, &Choice<EngineKind>::value)->name,
-            .name = is_octree ? "leaf_m=" + number_text(leaf_m)
-                              : "relative_l1=" + number_text(goal),
-            .kind = kind,
-            .leaf_m = leaf_m,
-            .relative_l1 = goal};
+    return {
+        .engine = std::ranges::find(engine_names, kind, &Choice<EngineKind>::value)->name,
+        .name = is_octree ? "leaf_m=" + number_text(leaf_m) : "relative_l1=" + number_text(goal),
+        .kind = kind,
+        .leaf_m = leaf_m,
+        .relative_l1 = goal};
 }
 
 double finest_bin_m(const Mission& mission) {

@@ -22,8 +22,8 @@ struct Setting {
     std::string name;    ///< the mission's key and value, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     double leaf_m = EngineSettings{}.octree.leaf_m;  ///< for the octree
-    double relative_l1 = 0.0;  ///< error goal of all but the octree
-    bool current = false;      ///< the mission's own setting
+    double relative_l1 = 0.0;                        ///< error goal of all but the octree
+    bool current = false;                            ///< the mission's own setting
 };
 
 /// The settings of a report: rays and strips by error goal and the octree by leaf size, each from

@@ -164,7 +164,10 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
             background[class_named(mission, objects, "background", name)] = 1;
         }
     }
-    if (const auto index = class_index(objects, clutter_class)) background[*index] = 1;
+    const auto clutter = class_index(objects, clutter_class);
+    const auto& rules = mission.scene.scatter;
+    if (clutter && std::ranges::count(rules, clutter_class, &ScatterConfig::class_name) > 0)
+        background[*clutter] = 1;
     return background;
 }
 

@@ -16,8 +16,8 @@ namespace sonarsim {
 /// The classes that are never annotated, as SceneObjects::background: those that
 /// `labels.background` names. `auto` is the classes of the bottom (bottom_patterns()) and,
 /// if there are two classes or more, of the object with the largest surface at rest. The class
-/// `clutter` is background, too. InputError for a name that no class has and no scattered object
-/// may have.
+/// `clutter` of `scatter` is background, too. InputError for a name that no class has and no
+/// scattered object may have.
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
                                              const SceneObjects& objects);
 

@@ -67,8 +67,7 @@ class ImageFormer {
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
         // Cells of amplitudes share scatterers with their neighbours, so the tails are of powers.
-        const EchoGrid& spread = powers || !mean_ ? grid : *mean_;
-        add_reverberation(model_.reverberation, spread, form,
+        add_reverberation(model_.reverberation, powers || !mean_ ? grid : *mean_, form,
                           powers ? 1.0F : speckle_gain_,
                           context_.draws.of(stream_named("reverberation")), grid);
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);

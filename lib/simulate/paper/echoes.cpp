@@ -42,10 +42,9 @@ constexpr float no_limit = std::numeric_limits<float>::max();
 /// +-u +- (1 +- wedge) v from its middle.
 float last_range(const Sample& sample) {
     if (sample.wedge == 0.0F) return no_limit;
-    const Eigen::Vector3f middle = sample.middle();
     float last_m = 0.0F;
     for (const float side : {-1.0F, 1.0F}) {
-        const Eigen::Vector3f end = middle + side * sample.edge_u;
+        const Eigen::Vector3f end = sample.middle() + side * sample.edge_u;
         const Eigen::Vector3f half = (1.0F + side * sample.wedge) * sample.edge_v;
         last_m = std::max({last_m, arrival_range(end - half), arrival_range(end + half)});
     }
@@ -171,12 +170,12 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
 }
 
 /// Ends the extents of echoes at `last_m`: the pieces of a wedge are those of its parallelogram.
-void end_at(float last_m, std::size_t begin, Echoes& echoes) {
-    for (std::size_t k = begin; k < begin + lanes; ++k) {
-        const float first = std::min(echoes.range_m[k] - echoes.half_m[k], last_m);
-        const float last = std::min(echoes.range_m[k] + echoes.half_m[k], last_m);
-        echoes.range_m[k] = 0.5F * (first + last);
-        echoes.half_m[k] = 0.5F * (last - first);
+void end_at(float last_m, float* range_m, float* half_m) {
+    for (int k = 0; k < lanes; ++k) {
+        const float first = std::min(range_m[k] - half_m[k], last_m);
+        const float last = std::min(range_m[k] + half_m[k], last_m);
+        range_m[k] = 0.5F * (first + last);
+        half_m[k] = 0.5F * (last - first);
     }
 }
 
@@ -211,7 +210,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std
             intensity[lane] = reflection * std::min(height / r, 1.0F);
         }
         std::fill_n(to.half_m.data() + at, lanes, f.half_m[k]);
-        if (f.last_m[k] < no_limit) end_at(f.last_m[k], at, to);
+        if (f.last_m[k] < no_limit) end_at(f.last_m[k], range_m, to.half_m.data() + at);
         std::fill_n(to.weight.data() + at, lanes, f.weight[k]);
         if (!cells) continue;
         std::uint32_t* const __restrict low = to.cell_low.data() + at;

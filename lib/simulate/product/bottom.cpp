@@ -148,10 +148,11 @@ std::optional<int> first_return_of_swath(std::span<const float> column,
         const int edge = smoothed.edge(static_cast<float>(exponential(rise->half_way)),
                                        std::max(rise->at - rise->window / 2, 0));
         if (water_surface && std::abs(edge - *water_surface) <= 2 * window) {
-            begin = edge + window;
+            begin = std::max(edge, rise->at) + window;
             continue;
         }
-        if (water_surface && 2.0 * (rise->half_way - rise->before) < surface_clutter) return {};
+        const bool in_clutter = water_surface && edge > *water_surface;
+        if (in_clutter && 2.0 * (rise->half_way - rise->before) < surface_clutter) return {};
         const int behind = edge + 2 * window;
         if (behind + 2 * window >= bins ||
             logarithms.mean(behind, behind + 2 * window) >= rise->before + Logarithms::min_rise)

@@ -20,7 +20,8 @@ std::optional<int> first_return(std::span<const float> column);
 /// its edge lies half way up, in logarithms. A rise behind which the column falls back within two
 /// to four windows is of a thing in the water, and counts only if no other follows. A bottom in the
 /// first half window has no water before it. `water_surface`: the bin at which the water's surface
-/// above the sonar is due, if it scatters; a rise within two windows of it does not count.
+/// above the sonar is due, if it scatters; a rise within two windows of it does not count, and
+/// one beyond is of the bottom from six times the value on, else there is none.
 std::optional<int> first_return_of_swath(std::span<const float> column,
                                          std::optional<int> water_surface = {});
 

@@ -68,8 +68,7 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
     for (int i = 0; i < ping.range_bins; ++i)
         column[i] = ping.at(i, beam);
     const std::optional<int> bin = first_return_of_swath(column, bin_of(sonar.config, surface_m));
-    if (!bin) return std::nullopt;
-    return sonar.middle_m(*bin);
+    return bin ? std::optional(sonar.middle_m(*bin)) : std::nullopt;
 }
 
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
@@ -82,8 +81,7 @@ std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
         std::vector<float> column;
         for (std::size_t k = blank; k < half; ++k)
             column.push_back(row[side > 0 ? half - 1 - k : half + k]);
-        const std::optional<int> bin =
-            first_return_of_swath(column, bin_of(sonar.config, surface_m));
+        const auto bin = first_return_of_swath(column, bin_of(sonar.config, surface_m));
         if (!bin) continue;
         const double range =
             (static_cast<double>(blank) + *bin + 0.5) * bin_m + column_offset_m(sonar.config);

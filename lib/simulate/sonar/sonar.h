@@ -66,8 +66,8 @@ std::size_t stage_count(const Sonar& sonar);
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
                               const PingKey& key);
 
-/// The settings of the keys `engine` and `octree`. For `auto` see simulate/assembly/assemble.h.
-EngineSettings engine_settings(EngineKind kind, double octree_leaf_m = EngineSettings{}.octree.leaf_m);
+/// The settings of `engine` and `octree_leaf_m`. For `auto` see simulate/assembly/assemble.h.
+EngineSettings engine_settings(EngineKind kind, double leaf_m = EngineSettings{}.octree.leaf_m);
 EngineSettings engine_settings(const Mission& mission);
 
 /// The distance from a sonar straight down to the scene, m. Nothing if no surface is below.

@@ -158,7 +158,7 @@ def set_levels(start, fit):
     near, far = noise.used.range_m[[0, -1]]
     level = noise.level_db.widened(share * noise.level_db.value)
     growth = (noise.at(far) - noise.at(near)) / np.log10(far / near)
-    fit.set("receiver.tvg_log", noise.tvg_log.widened(share * growth))
+    fit.set("receiver.tvg_log", Bounded(*map(float, np.clip(noise.tvg_log.widened(share * growth), 0.0, 60.0))))
     fit.instrument["receiver"]["tvg_absorption"] = True
     fit.level_db = level.value
     fit.set("receiver.full_scale_db", Bounded(*(start.noise_db - x for x in (level.value, level.high, level.low))))
