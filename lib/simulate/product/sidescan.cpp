@@ -72,32 +72,20 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
 }
 
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
-                              std::span<const float> row, std::optional<double> surface_m) {
-    const double bin_m = sonar.settings.view.bin_m();
-    const std::size_t half = row.size() / 2;
-    const auto blank = static_cast<std::size_t>(blank_columns(sonar.config));
-    std::optional<double> first;
-    for (const int side : {1, -1}) {
-        std::vector<float> column;
-        for (std::size_t k = blank; k < half; ++k)
-            column.push_back(row[side > 0 ? half - 1 - k : half + k]);
-        const auto bin = first_return_of_swath(column, bin_of(sonar.config, surface_m));
-        if (!bin) continue;
-        const double range =
-            (static_cast<double>(blank) + *bin + 0.5) * bin_m + column_offset_m(sonar.config);
-        first = std::min(first.value_or(range), range);
-    }
+                              std::optional<double> altitude_m) {
     // The sensor looks down along x and has the bow along z.
     const Eigen::Vector3d bow = T_world_sensor.rotation * Eigen::Vector3d::UnitZ();
     const double level = bow.head<2>().norm();
-    if (!first || level < 1e-3) return std::nullopt;
+    if (!altitude_m || level < 1e-3) return std::nullopt;
     const Eigen::Vector2d ahead = bow.head<2>() / level;
     const double range_max = sonar.config.range_max_m;
-    return Swath{.nadir_m = T_world_sensor.translation.head<2>() + *first * bow.z() * ahead,
+    const double distance_m = *altitude_m / level;
+    if (distance_m > range_max) return std::nullopt;
+    return Swath{.nadir_m = T_world_sensor.translation.head<2>() + distance_m * bow.z() * ahead,
                  .port = {-ahead.y(), ahead.x()},
-                 .distance_m = *first,
-                 .altitude_m = *first * level,
-                 .reach_m = std::sqrt(std::max(0.0, range_max * range_max - *first * *first))};
+                 .distance_m = distance_m,
+                 .altitude_m = *altitude_m,
+                 .reach_m = std::sqrt(range_max * range_max - distance_m * distance_m)};
 }
 
 void add_bounds(const Swath& swath, GroundBounds& bounds) {

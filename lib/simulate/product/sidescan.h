@@ -40,8 +40,8 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
 std::optional<double> scattering_surface_m(const std::optional<WaterSurface>& surface,
                                            const Pose& T_world_sensor);
 
-/// The swath of a side-scan ping on ground taken as level, at the depth of the first return. The
-/// plane of the scan, across the bow, meets it in a line.
+/// The swath of a side-scan ping on ground taken as level, at its altitude. The plane of the scan,
+/// across the bow, meets it in a line.
 struct Swath {
     Eigen::Vector2d nadir_m = Eigen::Vector2d::Zero();  ///< world x, y nearest on the line
     Eigen::Vector2d port = Eigen::Vector2d::Zero();     ///< unit vector along it, world
@@ -50,9 +50,10 @@ struct Swath {
     double reach_m = 0.0;                               ///< ground range at range_max
 };
 
-/// The swath of a row; nothing if it shows no bottom, or if the bow points straight up or down.
+/// The swath of a ping at an altitude; nothing without a bottom in range, or if the bow points
+/// straight up or down.
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
-                              std::span<const float> row, std::optional<double> surface_m);
+                              std::optional<double> altitude_m);
 
 void add_bounds(const Swath& swath, GroundBounds& bounds);
 

@@ -23,6 +23,9 @@ struct RecordedRow {
 void for_each_row(const WriterContext& context, const RecordFile& rows,
                   const std::function<void(const RecordedRow&)>& visit) {
     const Sonar& sonar = context.sonar();
+    EngineSettings settings{.type = EngineKind::rays, .octree = {}};
+    settings.caster = std::make_shared<const Caster>(context.assembly.make_caster());
+    const auto engine = make_engine(context.assembly.scene, settings);
     std::vector<float> values(rows.record_bytes() / sizeof(float));
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
@@ -31,10 +34,8 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
         const SonarAtPose then(context.mission, sonar, pose);
         const Pose T_world_sensor =
             sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, pose);
-        visit(
-            {pose, T_world_sensor, values,
-             swath_of(sonar, T_world_sensor, values,
-                      scattering_surface_m(context.assembly.scene.water_surface, T_world_sensor))});
+        visit({pose, T_world_sensor, values,
+               swath_of(sonar, T_world_sensor, altitude_m(*engine, T_world_sensor))});
     }
 }
 
@@ -135,7 +136,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
                {"values", "weighted mean of the echoes in a cell; NaN where there are none"},
                {"weight", "4 u (1 - u) of the ground at the share u of a swath's reach"},
                {"interpolation", "linear between pings"}},
-              {{"ground", "level, at the first return of each ping"},
+              {{"ground", "level, at the altitude of each ping"},
                {"pings", rows.records() - dark},
                {"pings_left_out", dark}});
 }
