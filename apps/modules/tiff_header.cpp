@@ -143,6 +143,16 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     head.grid[3] = unit_m * row;
 }
 
+void require_plain_values(TIFF* tiff) {
+    const auto text = values_of<char>(tiff, 42112, TIFF_ASCII);
+    const std::string items(text.data, text.data + text.count);
+    if (items.find("role=\"scale\"") == std::string::npos &&
+        items.find("role=\"offset\"") == std::string::npos)
+        return;
+    throw std::runtime_error(
+        "its values have a scale or an offset; apply it: gdal_translate -unscale -ot Float32");
+}
+
 void read_no_data(TIFF* tiff, SonarsimImageHead& head) {
     const auto text = values_of<char>(tiff, 42113, TIFF_ASCII);
     const std::size_t size = std::min<std::size_t>(text.count, sizeof(head.no_data) - 1);
@@ -172,6 +182,7 @@ void read_tiff_header(const char* file, SonarsimImageHead& head) {
     if (!tiff) throw std::runtime_error("its header is damaged: copy or export it again");
     require_numbers(tiff.get());
     require_pieces(tiff.get());
+    require_plain_values(tiff.get());
     read_grid(tiff.get(), head);
     read_no_data(tiff.get(), head);
 }

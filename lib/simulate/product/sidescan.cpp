@@ -76,16 +76,16 @@ std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
     // The sensor looks down along x and has the bow along z.
     const Eigen::Vector3d bow = T_world_sensor.rotation * Eigen::Vector3d::UnitZ();
     const double level = bow.head<2>().norm();
-    if (!altitude_m || level < 1e-3) return std::nullopt;
-    const Eigen::Vector2d ahead = bow.head<2>() / level;
     const double range_max = sonar.config.range_max_m;
+    if (!altitude_m || level < 1e-3 || *altitude_m > level * range_max) return std::nullopt;
+    const Eigen::Vector2d ahead = bow.head<2>() / level;
     const double distance_m = *altitude_m / level;
-    if (distance_m > range_max) return std::nullopt;
-    return Swath{.nadir_m = T_world_sensor.translation.head<2>() + distance_m * bow.z() * ahead,
-                 .port = {-ahead.y(), ahead.x()},
-                 .distance_m = distance_m,
-                 .altitude_m = *altitude_m,
-                 .reach_m = std::sqrt(range_max * range_max - distance_m * distance_m)};
+    return Swath{
+        .nadir_m = T_world_sensor.translation.head<2>() + distance_m * bow.z() * ahead,
+        .port = {-ahead.y(), ahead.x()},
+        .distance_m = distance_m,
+        .altitude_m = *altitude_m,
+        .reach_m = std::sqrt(std::max(0.0, range_max * range_max - distance_m * distance_m))};
 }
 
 void add_bounds(const Swath& swath, GroundBounds& bounds) {

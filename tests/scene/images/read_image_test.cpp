@@ -146,6 +146,7 @@ TEST_CASE("pixels of the file's mark have no value, also where the mark is round
     bytes.replace(bytes.find("-9999"), 5, "-99,9");
     write_file(marked, bytes);
     check_refused(marked, "pixels '-99,9' (GDAL_NODATA), which is not a number");
+    check_refused(map.translated("-a_scale 0.01"), "its values have a scale or an offset");
     // A mask alone is not read.
     const std::string masked = "-b 1 -mask 1 --config GDAL_TIFF_INTERNAL_MASK YES -a_nodata ";
     check_refused(map.translated(masked + "none"), "it marks unknown pixels by a mask");

@@ -29,8 +29,7 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     std::vector<float> values(rows.record_bytes() / sizeof(float));
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
-        const auto pose =
-            static_cast<std::uint32_t>(k) * static_cast<std::uint32_t>(sonar.config.every);
+        const auto pose = static_cast<std::uint32_t>(k * sonar.config.every);
         const SonarAtPose then(context.mission, sonar, pose);
         const Pose T_world_sensor =
             sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, pose);
