@@ -97,26 +97,28 @@ void add_bounds(const Swath& swath, GroundBounds& bounds) {
 
 void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row,
                  GroundGrid& mosaic) {
-    constexpr double cos_10_degrees = 0.98480775301220806;
     const double cell_m = mosaic.cell_m;
-    const bool is_near = before.swath.port.dot(row.swath.port) > cos_10_degrees &&
-                         (row.swath.nadir_m - before.swath.nadir_m).norm() < 10.0 * cell_m;
+    const bool is_near =
+        before.swath.port.dot(row.swath.port) > 0.98480775301220806 &&  // cos(10 degrees)
+        (row.swath.nadir_m - before.swath.nadir_m).norm() < 10.0 * cell_m;
     const SwathRow& first = is_near ? before : row;
     const double reach = std::min(first.swath.reach_m, row.swath.reach_m);
     const double step = 0.5 * std::min(cell_m, sonar.settings.view.bin_m());
     for (const int side : {1, -1}) {
-        for (double ground = 0.5 * step; ground < reach; ground += step) {
+        for (int n = 0; (n + 0.5) * step < reach; ++n) {
+            const double ground = (n + 0.5) * step;
             const Eigen::Vector2d from = first.swath.nadir_m + side * ground * first.swath.port;
             const Eigen::Vector2d way = row.swath.nadir_m + side * ground * row.swath.port - from;
             const double echo = echo_at_ground(sonar, row, ground, side);
             const double change = echo_at_ground(sonar, first, ground, side) - echo;
-            const double points = std::max(1.0, std::ceil(way.norm() / (0.25 * cell_m)));
+            const int points = std::max(1, static_cast<int>(std::ceil(way.norm() / cell_m * 4.0)));
             const double share = ground / reach;
             // A vehicle that stands still covers ground, too.
             const double width = std::max(way.norm(), 0.05 * cell_m) / points;
-            for (double k = 0.5; k < points; ++k) {
-                const Eigen::Vector2d at = from + k / points * way;
-                mosaic.add({at.x(), at.y(), echo + (1.0 - k / points) * change},
+            for (int k = 0; k < points; ++k) {
+                const double part = (k + 0.5) / points;
+                const Eigen::Vector2d at = from + part * way;
+                mosaic.add({at.x(), at.y(), echo + (1.0 - part) * change},
                            4.0 * share * (1.0 - share) * width);
             }
         }

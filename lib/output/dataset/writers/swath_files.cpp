@@ -23,9 +23,7 @@ struct RecordedRow {
 void for_each_row(const WriterContext& context, const RecordFile& rows,
                   const std::function<void(const RecordedRow&)>& visit) {
     const Sonar& sonar = context.sonar();
-    EngineSettings settings{.type = EngineKind::rays, .octree = {}};
-    settings.caster = std::make_shared<const Caster>(context.assembly.make_caster());
-    const auto engine = make_engine(context.assembly.scene, settings);
+    const auto engine = make_engine(context.mission, context.assembly);
     std::vector<float> values(rows.record_bytes() / sizeof(float));
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
