@@ -25,9 +25,9 @@ int reach_of(double resolution_bins) {
 /// The square root of the spectrum of noise after a matched filter, `frequency` in cycles per bin.
 /// The pulse's band is `width` cycles per bin wide; beyond half a cycle it aliases.
 double noise_amplitude(const LineArray& band, double width, double frequency) {
-    const double reach = std::ceil(0.5 * width);
+    const int reach = static_cast<int>(std::ceil(0.5 * width));
     double sum = 0.0;
-    for (double k = -reach; k <= reach; k += 1.0)
+    for (int k = -reach; k <= reach; ++k)
         sum += std::abs(band.weight((frequency + k) / width));
     return std::sqrt(sum);
 }
