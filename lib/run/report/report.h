@@ -19,7 +19,7 @@ namespace sonarsim {
 /// One engine with one resolution.
 struct Setting {
     std::string engine;  ///< "rays", "strips", "octree" or "auto"
-    std::string name;    ///< the mission's key and value, "relative_l1=0.03"
+    std::string name;    ///< its resolution, "relative_l1=0.03" or "leaf_m=0.02"
     EngineKind kind = EngineKind::rays;
     double leaf_m = EngineSettings{}.octree.leaf_m;  ///< for the octree
     double relative_l1 = 0.0;                        ///< error goal of all but the octree

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulate/product/bottom.h"
+#include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
 
@@ -13,10 +14,13 @@ double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
 }
 
-/// The bin of a range; nothing beyond range_max.
-std::optional<int> bin_of(const SonarConfig& config, std::optional<double> range_m) {
-    if (!range_m || *range_m > config.range_max_m) return std::nullopt;
-    return static_cast<int>(std::floor((*range_m - config.range_min_m) / width_of_bin_m(config)));
+/// The bin at which the water's surface is due if it scatters; nothing beyond range_max.
+std::optional<int> bin_of(const std::optional<WaterSurface>& surface, const SonarConfig& config,
+                          const Pose& T_world_sensor) {
+    const std::optional<WaterMirror> above = mirror_of(surface, T_world_sensor);
+    if (!above || !surface->wind_m_s || above->height_m > config.range_max_m) return std::nullopt;
+    return static_cast<int>(
+        std::floor((above->height_m - config.range_min_m) / width_of_bin_m(config)));
 }
 
 /// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.
@@ -55,19 +59,14 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
     return bins;
 }
 
-std::optional<double> scattering_surface_m(const std::optional<WaterSurface>& surface,
-                                           const Pose& T_world_sensor) {
-    if (!surface || !surface->wind_m_s) return std::nullopt;
-    const double above_m = surface->height_m - T_world_sensor.translation.z();
-    return above_m > 0.0 ? std::optional(above_m) : std::nullopt;
-}
-
 std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
-                                     std::optional<double> surface_m) {
+                                     const std::optional<WaterSurface>& surface,
+                                     const Pose& T_world_sensor) {
     std::vector<float> column(ping.range_bins);
     for (int i = 0; i < ping.range_bins; ++i)
         column[i] = ping.at(i, beam);
-    const std::optional<int> bin = first_return_of_swath(column, bin_of(sonar.config, surface_m));
+    const std::optional<int> bin =
+        first_return_of_swath(column, bin_of(surface, sonar.config, T_world_sensor));
     return bin ? std::optional(sonar.middle_m(*bin)) : std::nullopt;
 }
 

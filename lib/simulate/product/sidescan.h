@@ -32,13 +32,10 @@ int waterfall_columns(const SonarConfig& config);
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
 /// Slant range of the first bottom return in a beam, m: the middle of its bin
-/// (first_return_of_swath()). Nothing if the side is dark. `surface_m`: scattering_surface_m().
+/// (first_return_of_swath()). Nothing if the side is dark. `surface`: of the water.
 std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
-                                     std::optional<double> surface_m);
-
-/// The range of the water's surface straight above a sonar; nothing if it does not scatter.
-std::optional<double> scattering_surface_m(const std::optional<WaterSurface>& surface,
-                                           const Pose& T_world_sensor);
+                                     const std::optional<WaterSurface>& surface,
+                                     const Pose& T_world_sensor);
 
 /// The swath of a side-scan ping on ground taken as level, at its altitude. The plane of the scan,
 /// across the bow, meets it in a line.

@@ -60,10 +60,10 @@ void waterfall_row(std::span<const float> row, double white, const StripFrame& /
 
 /// The range of the first bottom return on either side.
 void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
-    const std::optional<double> surface_m = scattering_surface_m(
-        view.water_surface, sensor_pose(view.sonar, view.T_world_vehicle, view.pose));
+    const Pose T_world_sensor = sensor_pose(view.sonar, view.T_world_vehicle, view.pose);
     const auto first = [&](int side) {
-        return number_or_null(first_return_m(view.sonar, view.ping, side, surface_m));
+        return number_or_null(
+            first_return_m(view.sonar, view.ping, side, view.water_surface, T_world_sensor));
     };
     json["first_return_m"] = {{"port", first(Side::port)}, {"starboard", first(Side::starboard)}};
 }

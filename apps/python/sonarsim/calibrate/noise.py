@@ -99,7 +99,7 @@ def fit_noise(blocks, absorption, from_m=0.0):
     for _ in range(5):
         line = best_line(x[used], y[used], np.ones((1, used.sum())))[0]
         used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= 1.2 * NEAR_DB)
-        if used.sum() < MIN_BLOCKS or not -3.0 <= line[1] <= 63.0:   # no receiver's gain
+        if used.sum() < MIN_BLOCKS or not -3.0 <= line[1] <= 63.0:   # limits of the key, and 3
             return None
     found = bootstrap(used.sum(), lambda w: best_line(x[used], y[used], w), [MIN_LEVEL_DB, MIN_TVG])
     return Noise(*found, from_m, absorption, blocks[used])

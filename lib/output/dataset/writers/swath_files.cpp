@@ -5,6 +5,7 @@
 #include "output/dataset/map_place.h"
 #include "output/dataset/writer.h"
 #include "output/format/xtf.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/sidescan.h"
 #include "simulate/sonar/sonar.h"
@@ -20,10 +21,9 @@ struct RecordedRow {
     std::optional<Swath> swath;
 };
 
-void for_each_row(const WriterContext& context, const RecordFile& rows,
-                  const std::function<void(const RecordedRow&)>& visit) {
+void for_each_row(const WriterContext& context, const VisibilityEngine& engine,
+                  const RecordFile& rows, const std::function<void(const RecordedRow&)>& visit) {
     const Sonar& sonar = context.sonar();
-    const auto engine = make_engine(context.mission, context.assembly);
     std::vector<float> values(rows.record_bytes() / sizeof(float));
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
@@ -31,8 +31,10 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
         const SonarAtPose then(context.mission, sonar, pose);
         const Pose T_world_sensor =
             sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, pose);
+        const auto now =
+            engine_at(engine, context.assembly.motions, context.assembly.trajectory[pose].t_s);
         visit({pose, T_world_sensor, values,
-               swath_of(sonar, T_world_sensor, altitude_m(*engine, T_world_sensor))});
+               swath_of(sonar, T_world_sensor, altitude_m(*now, T_world_sensor))});
     }
 }
 
@@ -87,12 +89,12 @@ XtfFile xtf_file(const SonarConfig& config) {
     return file;
 }
 
-void write_xtf(const WriterContext& context, const RecordFile& rows,
+void write_xtf(const WriterContext& context, const VisibilityEngine& engine, const RecordFile& rows,
                const std::filesystem::path& folder) {
     const XtfFile sonar = xtf_file(context.sonar().config);
     StreamedFile file(folder / "waterfall.xtf");
     file.append(xtf_header(sonar));
-    for_each_row(context, rows, [&](const RecordedRow& row) {
+    for_each_row(context, engine, rows, [&](const RecordedRow& row) {
         file.append(
             xtf_record(sonar, xtf_ping(context, row), grey_16(row.values, context.full_scale())));
     });
@@ -113,16 +115,16 @@ double mosaic_cell_m(const WriterContext& context) {
     return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
 }
 
-void write_mosaic(const WriterContext& context, const RecordFile& rows,
-                  const std::filesystem::path& folder) {
+void write_mosaic(const WriterContext& context, const VisibilityEngine& engine,
+                  const RecordFile& rows, const std::filesystem::path& folder) {
     GroundBounds bounds;
     std::uint64_t dark = 0;
-    for_each_row(context, rows, [&](const RecordedRow& row) {
+    for_each_row(context, engine, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
     GroundGrid mosaic = make_ground_grid(bounds, mosaic_cell_m(context));
     std::optional<SwathRow> before;
-    for_each_row(context, rows, [&](const RecordedRow& row) {
+    for_each_row(context, engine, rows, [&](const RecordedRow& row) {
         if (!row.swath) return before.reset();
         SwathRow now{*row.swath, {row.values.begin(), row.values.end()}};
         add_between(context.sonar(), before ? *before : now, now, mosaic);
@@ -150,8 +152,10 @@ std::vector<std::string> swath_products(const WriterContext& context) {
 
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
                        const std::filesystem::path& folder) {
-    if (context.mission.output.xtf) write_xtf(context, rows, folder);
-    if (context.mission.output.mosaic) write_mosaic(context, rows, folder);
+    if (swath_products(context).empty()) return;
+    const auto engine = make_engine(context.mission, context.assembly);
+    if (context.mission.output.xtf) write_xtf(context, *engine, rows, folder);
+    if (context.mission.output.mosaic) write_mosaic(context, *engine, rows, folder);
 }
 
 }  // namespace sonarsim
