@@ -154,8 +154,7 @@ TEST_CASE("levels: full scale holds the speckle of sand, and noise at two thirds
         ping.intensity = {static_cast<float>(power_of_db(noise_db - model.levels.full_scale_db))};
         CHECK(model.raw(ping)[0] == 170);
     }
-    // Less noise than sand does not change it: ln 100 above its mean, or three times its
-    // amplitude.
+    // Less noise than sand does not change it: ln 100 above its mean, or three times its amplitude.
     for (const double noise_db : {20.0, 30.0}) {
         receiver.noise_db = noise_db;
         receiver.companding = Companding::gamma;
@@ -192,8 +191,7 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
     std::ranges::nth_element(near_half, at);
     CHECK(std::fabs(db_of_power(*at / sonar.settings.model->info.white)) < 1.0);
 
-    // A profiler sees its bottom from above, so no rule covers it; nor is white above full
-    // scale.
+    // A profiler sees its bottom from above, so no rule covers it; nor is white above full scale.
     config.elevation_deg = 4.0;
     CHECK(make_sonar(config, {}).settings.model->info.white == 0.0);
     config = imaging();

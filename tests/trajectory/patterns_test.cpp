@@ -124,8 +124,7 @@ TEST_CASE("lawnmower: whatever the heading, swaths of the line spacing cover the
         std::size_t holes = 0;
         for (double x = plan.area_min_m[0]; x <= plan.area_max_m[0]; x += 1.0) {
             for (double y = plan.area_min_m[1]; y <= plan.area_max_m[1]; y += 1.0) {
-                // Some pose on a line, of poses 5 cm apart, passes abeam within half the
-                // spacing.
+                // Some pose on a line, of poses 5 cm apart, passes abeam within half the spacing.
                 holes += std::none_of(poses.begin(), poses.end(), [&](const TimedPose& pose) {
                     const Vector2d off = Vector2d(x, y) - position(pose).head<2>();
                     const double yaw = turn(heading(pose), degrees_of_line);
