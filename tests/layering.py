@@ -38,7 +38,7 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "assembly": "core mission water scene trajectory visibility trace calibrated ping product sonar",
     "reference": "core scene visibility trace ping",
     "format": "core",
-    "dataset": "core mission scene trajectory calibrated ping labels product sonar assembly format",
+    "dataset": "core mission scene trajectory ping labels product sonar assembly format",
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
     "job": "core mission trajectory visibility sonar assembly dataset checks",
     "report": "core mission scene visibility sonar assembly reference dataset checks job",

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "commands.h"
+#include "core/decibel.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "input/mission/scene_keys.h"
@@ -16,7 +17,6 @@
 #include "run/checks/find_warnings.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/calibrated/equation/bottom.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

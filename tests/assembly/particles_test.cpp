@@ -1,8 +1,9 @@
 #include "simulate/assembly/particles.h"
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
+#include "simulate/trace/particles.h"
 #include "support/statistics.h"
 
 namespace {
@@ -24,7 +25,9 @@ ParticlesConfig school(ParticleRegion region, double count) {
 struct Drawn {
     Scene scene;
     std::vector<Sonar> sonars;
-    const Particles& particles() const { return *sonars[0].settings.particles; }
+    const Particles& particles() const {
+        return dynamic_cast<const Particles&>(*sonars[0].settings.sources.at(0));
+    }
 };
 
 Drawn draw(const ParticlesConfig& config, std::uint64_t seed) {
@@ -49,7 +52,7 @@ TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
     for (const ParticleRegion region : {ParticleRegion::box, ParticleRegion::ellipsoid}) {
         const Drawn drawn = draw(school(region, 3000.0), 5);
         std::vector<double> first, second, lengths;
-        for (const Particle& particle : drawn.particles().all) {
+        for (const Particle& particle : drawn.particles().all()) {
             const Eigen::Vector3d middle(100.0, -50.0, -10.0);
             const Eigen::Vector3d scaled =
                 (particle.start_m - middle).cwiseQuotient(Eigen::Vector3d(10.0, 5.0, 2.0));
@@ -72,10 +75,11 @@ TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
 
 TEST_CASE("particles: keyed by the seed, timed from the first ping") {
     const Drawn one = draw(school(ParticleRegion::box, 5.0), 5);
-    const auto start_of = [](const Drawn& drawn) { return drawn.particles().all[0].start_m; };
+    const auto start_of = [](const Drawn& drawn) { return drawn.particles().all()[0].start_m; };
     CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 5)) == start_of(one));
     CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 6)) != start_of(one));
-    CHECK(one.particles().time_s == std::vector<double>{0.0, 1.0, 2.5});
+    CHECK(one.particles().time_s(1) == 1.0);
+    CHECK(one.particles().time_s(2) == 2.5);
 }
 
 TEST_CASE("particles: single targets and groups are instances") {
@@ -87,7 +91,7 @@ TEST_CASE("particles: single targets and groups are instances") {
     CHECK(few.scene.materials.back().name == "fish");
     const Drawn many = draw(school(ParticleRegion::box, 500.0), 5);
     CHECK(many.scene.instances == std::vector<std::string>{"floor", "school"});
-    CHECK(many.particles().all[499].instance == 1);
+    CHECK(many.particles().all()[499].instance == 1);
     ParticlesConfig taken = school(ParticleRegion::box, 3.0);
     taken.name = "floor";
     CHECK_THROWS_WITH_AS(draw(taken, 5), doctest::Contains("'floor'"), InputError);

@@ -1,7 +1,7 @@
 #include "simulate/calibrated/equation/expected_echo.h"
 
 #include "calibrated/preset_fixtures.h"
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "simulate/calibrated/equation/instrument_levels.h"
 
+#include "core/decibel.h"
 #include "simulate/calibrated/equation/expected_echo.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"

@@ -1,6 +1,6 @@
 #include "simulate/calibrated/model.h"
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/statistics.h"

@@ -1,4 +1,4 @@
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"

@@ -1,5 +1,6 @@
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/model.h"
+#include "simulate/trace/particles.h"
 #include "support/labelled.h"
 #include "support/patches.h"
 
@@ -138,7 +139,8 @@ TEST_CASE("particles: labels at their bin and beam") {
         .section_m2 = section_m2,
         .material = static_cast<std::uint32_t>(scene.materials.size() - 1),
         .instance = 1};
-    sonar.settings.particles = std::make_shared<const Particles>(Particles{{fish}, {}});
+    sonar.settings.sources = {
+        std::make_shared<const Particles>(std::vector<Particle>{fish}, std::vector<double>{})};
     const Labelled found = label(scene, sonar, {}, EngineKind::rays);
     const std::size_t at = found.at(bin_at(sonar, 8.05), 40);
     REQUIRE(found.labels.object[at] > 0);

@@ -1,6 +1,6 @@
 #include "simulate/calibrated/receiver/receiver_chain.h"
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "support/calibrated.h"
 #include "support/statistics.h"
 

@@ -1,5 +1,5 @@
 #include "calibrated/preset_fixtures.h"
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/product/scan.h"
 
 namespace {

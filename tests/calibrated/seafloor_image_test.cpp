@@ -1,5 +1,5 @@
+#include "core/decibel.h"
 #include "simulate/calibrated/equation/expected_echo.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/patches.h"

@@ -1,7 +1,7 @@
 #include "simulate/calibrated/equation/seafloor_scattering.h"
 
+#include "core/decibel.h"
 #include "simulate/calibrated/equation/bottom.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "support/draws.h"
 
 namespace {

@@ -1,8 +1,8 @@
 #include "simulate/calibrated/equation/sediment.h"
 
+#include "core/decibel.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/seafloor_scattering.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "support/calibrated.h"
 
 namespace {

@@ -1,6 +1,6 @@
 #include "simulate/calibrated/equation/specular_echoes.h"
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/ping/sonar.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

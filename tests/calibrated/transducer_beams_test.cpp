@@ -1,4 +1,4 @@
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/line_array.h"
 #include "simulate/calibrated/signal/range_response.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "support/calibrated.h"
 

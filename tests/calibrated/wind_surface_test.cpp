@@ -1,5 +1,6 @@
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/equation/bottom.h"
+#include "simulate/trace/visible_water_surface.h"
 
 namespace {
 
@@ -54,7 +55,7 @@ TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
     config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
     config.instrument.frequency_hz = 1e5;
     Sonar sonar = make_sonar(config, {});
-    sonar.settings.sees_water_surface = true;
+    sonar.settings.sources = {std::make_shared<const ScatteringSurface>()};
     const double scale = piston_scale(radians(10.0));
     const auto absorption = calibrated_model_of(sonar).absorption_db_per_m;
     const auto flash = [&](double wind_m_s) {

@@ -56,12 +56,13 @@ TEST_CASE("example of a kind of sample: a wake absorbs and scatters") {
     // wall that hides half of it change nothing else.
     const Scene scene = box_scene({4.0F, -50.0F, -50.0F}, {4.1F, 50.0F, 50.0F}, 0.6F);
     const auto engine = make_rays_engine(scene);
-    const Wake wake{{Eigen::Vector3d(3, -1, -1), Eigen::Vector3d(5, 1, 1)}, 0.3F, 0.02F, 0.25};
+    const Wake wake({{Eigen::Vector3d(3, -1, -1), Eigen::Vector3d(5, 1, 1)}, 0.3F, 0.02F, 0.25},
+                    SampleKind::particle);
     Samples samples;
     samples.items.resize(2);
     samples.items[0].position = {7.0F, 0.0F, 0.0F};
     samples.items[1].position = {0.0F, 0.0F, -7.0F};
-    add_wake(wake, SampleKind::particle, *engine, {}, samples);
+    wake.add({View{}, scene, *engine, Pose{}}, {}, 0, samples);
     CHECK(samples.items[0].strength == approx(std::exp(-2 * 0.3 * 2)));
     CHECK(samples.items[1].strength == 1.0F);
     CHECK(area_of(std::span(samples.items).subspan(2)) == approx(0.02 * 1 * 2 * 2));

@@ -1,4 +1,4 @@
-#include "simulate/calibrated/signal/decibel.h"
+#include "core/decibel.h"
 #include "simulate/trace/apply_maps.h"
 #include "support/calibrated.h"
 #include "support/labelled.h"

@@ -32,12 +32,12 @@ TEST_CASE("particles: they drift, and bubbles rise and begin anew") {
 TEST_CASE("particles: those in view that no surface hides") {
     const Scene scene = rectangle_scene({8, -2, -5}, {8, 2, 5}, 0.4F);
     const auto engine = make_rays_engine(scene);
-    Particles particles;
-    particles.all = {particle_at(7.0, 0.0, 0.0),   particle_at(9.0, 0.0, 0.0),
-                     particle_at(12.0, 2.9, 0.0),  particle_at(12.0, 3.1, 0.0),
-                     particle_at(-5.0, 0.0, 0.0),  particle_at(5.0, 5.2, 0.0),
-                     particle_at(5.0, 0.0, 1.0),   particle_at(19.0, 9.0, 0.0),
-                     particle_at(18.0, -7.0, 0.0), particle_at(7.0, 0.0, -1.2)};
+    const Particles particles(
+        {particle_at(7.0, 0.0, 0.0), particle_at(9.0, 0.0, 0.0), particle_at(12.0, 2.9, 0.0),
+         particle_at(12.0, 3.1, 0.0), particle_at(-5.0, 0.0, 0.0), particle_at(5.0, 5.2, 0.0),
+         particle_at(5.0, 0.0, 1.0), particle_at(19.0, 9.0, 0.0), particle_at(18.0, -7.0, 0.0),
+         particle_at(7.0, 0.0, -1.2)},
+        {});
     const auto numbers_of = [](const Samples& samples) {
         std::vector<std::uint32_t> numbers;
         for (const Sample& sample : samples.items)
@@ -45,7 +45,7 @@ TEST_CASE("particles: those in view that no surface hides") {
         return numbers;
     };
     Samples visible;
-    add_particles(particles, 0.0, wide_fan, *engine, {}, {}, visible);
+    particles.add({wide_fan, scene, *engine, Pose{}}, {}, 0, visible);
     // 5 is outside in azimuth, 6 at 11.3 degrees of elevation, 7 beyond 20 m.
     CHECK(numbers_of(visible) == std::vector<std::uint32_t>{0, 3, 8, 9});
     CHECK((visible.items[1].position - Eigen::Vector3f(12.0F, 3.1F, 0.0F)).norm() < 1e-5F);
@@ -53,6 +53,6 @@ TEST_CASE("particles: those in view that no surface hides") {
     // From a sonar behind the wall that looks back, past whose edge it sees 5.
     const Pose back{rotation_from_rpy(0.0, 0.0, pi), {16.0, 0.0, 0.0}};
     Samples behind;
-    add_particles(particles, 0.0, wide_fan, *engine, back, {}, behind);
+    particles.add({wide_fan, scene, *engine, back}, {}, 0, behind);
     CHECK(numbers_of(behind) == std::vector<std::uint32_t>{1, 2, 3, 5});
 }

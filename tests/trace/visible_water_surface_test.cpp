@@ -17,7 +17,7 @@ double area_between(Scene scene, const View& view, const Pose& pose, double from
     scene.water_surface = WaterSurface{surface_m, 1.0F, 5.0};
     double sum = 0.0;
     Samples visible;
-    add_water_surface(view, scene, *engine, pose, {}, visible);
+    ScatteringSurface().add({view, scene, *engine, pose}, {}, 0, visible);
     for (const Sample& sample : visible.items) {
         CHECK(sample.material == scene.materials.size());
         const double range = sample.position.norm();

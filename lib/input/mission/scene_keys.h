@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "input/mission/limits.h"
+#include "input/mission/particle_keys.h"
 #include "input/mission/seabed_keys.h"
 #include "input/mission/trajectory_keys.h"
 #include "input/mission/water_keys.h"

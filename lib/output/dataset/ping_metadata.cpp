@@ -1,9 +1,6 @@
-#include <map>
-
 #include "core/text.h"
 #include "input/mission/ping_draws.h"
 #include "output/dataset/writer.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 
@@ -22,37 +19,6 @@ void describe_variant(const Mission& mission, Json& json) {
     json["variant"] = {{"index", mission.variant.index},
                        {"drawn", describe_drawn(mission.variant.drawn)}};
 }
-
-namespace {
-
-/// The point targets that a ping reaches, by object: their number, mean place and total strength.
-Json describe_particles(const Assembly& assembly, const FinishedPing& finished, double time_s) {
-    struct Sum {
-        int count = 0;
-        double section_m2 = 0.0;
-        Eigen::Vector3d place = Eigen::Vector3d::Zero();
-    };
-    std::map<std::uint32_t, Sum> sums;  // keyed by instance
-    for (const Sample& sample : finished.traced.samples.in_no_beam()) {
-        if (sample.kind != SampleKind::particle) continue;
-        Sum& sum = sums[sample.instance];
-        ++sum.count;
-        const Particle& particle = finished.sonar.settings.particles->all[sample.number];
-        sum.section_m2 += particle.section_m2;
-        sum.place += place_at(particle, time_s);
-    }
-    Json json = Json::object();
-    for (const auto& [instance, sum] : sums) {
-        json[assembly.scene.instances[instance]] = {
-            {"count", sum.count},
-            {"position_m", describe_vector(Eigen::Vector3d(sum.place / sum.count))},
-            // To a hundredth of a decibel, since the cross-sections are floats.
-            {"target_strength_db", rounded(db_of_power(sum.section_m2), 100.0)}};
-    }
-    return json;
-}
-
-}  // namespace
 
 Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
     const PingId& id = finished.id;
@@ -83,10 +49,8 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
         const std::string& name = assembly.scene.instances[assembly.scene.bodies[k].instance];
         json["T_world_object"][name] = describe_pose(bodies[k]);
     }
-    if (finished.sonar.settings.particles) {
-        json["particles"] =
-            describe_particles(assembly, finished, pose.t_s - assembly.trajectory.front().t_s);
-    }
+    for (const auto& source : sonar.settings.sources)
+        source->describe(finished.traced.samples, assembly.scene, id.pose, json);
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
 }

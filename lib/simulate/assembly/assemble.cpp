@@ -19,6 +19,7 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
+#include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
 
@@ -72,8 +73,9 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     // Without multipath the surface bounds the water, and depths count from it, as of bubbles.
-    if (!multipath && !some_water_scatters(mission) && !mission.water.profile && !config.scatters &&
-        mission.scene.particles.empty()) {
+    const bool has_sources = std::ranges::any_of(
+        assembly.sonars, [](const Sonar& sonar) { return !sonar.settings.sources.empty(); });
+    if (!multipath && !some_water_scatters(mission) && !mission.water.profile && !has_sources) {
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
     }
@@ -104,7 +106,7 @@ void add_water_surface(const Mission& mission, Assembly& assembly) {
     if (config.scatters) {
         surface.wind_m_s = mission.water.wind_m_s;
         for (Sonar& sonar : assembly.sonars)
-            sonar.settings.sees_water_surface = true;
+            sonar.settings.sources.push_back(std::make_shared<const ScatteringSurface>());
     }
     const std::string warning = surface_warning(mission, assembly);
     if (!warning.empty()) assembly.scene.warnings.push_back(warning);
@@ -240,9 +242,10 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
-    // 5. The water: its surface, whose warning needs all poses, what swims in it, its layers.
-    add_water_surface(mission, assembly);
+    // 5. The water: what swims in it, its surface, whose warning needs both and all poses, its
+    // layers.
     add_particles(mission, assembly.trajectory, scene, assembly.sonars);
+    add_water_surface(mission, assembly);
     add_sound_profiles(mission, scene, assembly.sonars);
     warn_of_empty_scatter(mission, scene);
     // 6. Objects for labels: nodes and particles.

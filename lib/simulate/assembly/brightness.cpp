@@ -53,22 +53,26 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     const auto beams = static_cast<std::size_t>(settings.view.beams);
     // Models that average over a bin give 0 without surface, so all their bins may count.
     const bool all = settings.view.shape == ViewShape::cone || !settings.model->info.energies_add;
-    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
+    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), 1);
     if (all) return out;
     const std::array<std::uint32_t, EchoBlock::capacity> one_source{};
-    for (int group = 0; group < traced.groups(); ++group) {
+    const auto find = [&](const TracedPing& group, int /*number*/) {
         EchoSums sums(bins, settings.view.beams);
         settings.model->surface_echoes(
-            traced.group(group), settings.view, scene, {},
-            [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
+            group, settings.view, scene, {},
+            [&](const EchoBlock& block) { sums.add(block, one_source); });
         for (std::size_t j = 0; j < beams; ++j) {
-            if (!traced.transmits(group, static_cast<int>(j))) continue;
             const std::span<const std::uint8_t> column = sums.occupied(static_cast<int>(j));
             for (std::size_t i = 0; i < column.size(); ++i)
                 out[i * beams + j] = column[i];
         }
-    }
-    return out;
+        return out;
+    };
+    const auto take_beam = [&](const auto& from, int beam, auto& to) {
+        for (auto at = static_cast<std::size_t>(beam); at < to.size(); at += beams)
+            to[at] = from[at];
+    };
+    return by_groups(traced, find, take_beam, [](const auto&, const auto&) {});
 }
 
 double find_full_scale(const Mission& mission, const Scene& scene, const Trajectory& trajectory,

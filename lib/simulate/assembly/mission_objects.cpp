@@ -75,29 +75,24 @@ std::size_t class_named(const Mission& mission, const SceneObjects& objects, con
 /// The instances whose number is drawn, and their classes.
 std::vector<std::pair<std::string, std::string>> drawn_instances(const SceneConfig& scene) {
     std::vector<std::pair<std::string, std::string>> drawn;
+    const auto add_from = [&](std::size_t first, double max_count, const std::string& name,
+                              const std::string& own) {
+        for (std::size_t k = first; static_cast<double>(k) <= max_count; ++k)
+            drawn.push_back({name + "_" + std::to_string(k), own});
+    };
     for (const ScatterConfig& scatter : scene.scatter) {
-        const auto max_count = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
         for (std::size_t file = 0; file < scatter.files.size(); ++file) {
             if (file == 0 || scatter.class_of(file) != scatter.class_of(file - 1))
                 drawn.push_back({scatter.name + "_1", scatter.class_of(file)});
         }
-        for (std::size_t k = 2; k <= max_count; ++k)
-            drawn.push_back({scatter.name + "_" + std::to_string(k), scatter.class_of(0)});
+        add_from(2, scatter.count[1], scatter.name, scatter.class_of(0));
     }
     for (const ParticlesConfig& particles : scene.particles) {
-        const std::string& own =
-            particles.class_name.empty() ? particles.name : particles.class_name;
-        drawn.push_back({particles.name + "_1", own});
+        const std::string& own = particles.class_or_name();
+        add_from(1, std::min(particles.count[1], max_single_particles - 1), particles.name, own);
         drawn.push_back({particles.name, own});
     }
     return drawn;
-}
-
-/// True if the instance is one of a group of particles, which may be larger than another variant's.
-bool is_particle(const SceneConfig& scene, const std::string& name) {
-    return std::ranges::any_of(scene.particles, [&](const ParticlesConfig& particles) {
-        return name == particles.name || name.starts_with(particles.name + "_");
-    });
 }
 
 /// The instances of the files of a mission, and their classes. Nothing is placed.
@@ -199,7 +194,7 @@ PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
         drawn_names.insert(one.first);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const std::string& name = scene.instances[i];
-        if (is_particle(mission.scene, name) || drawn_names.contains(name)) continue;
+        if (drawn_names.contains(name)) continue;
         possible.instances.push_back({name, scene.instance_classes[i]});
         if (name != seabed_instance || !mission.scene.seabed) continue;
         const SeabedConfig& seabed = *mission.scene.seabed;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "input/scene/materials.h"
 #include "simulate/calibrated/equation/water.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/trace/particles.h"
 
 namespace sonarsim {
@@ -82,7 +82,7 @@ std::uint32_t material_of(ParticleKind kind, Scene& scene) {
 std::uint32_t add_instance(const ParticlesConfig& config, const std::string& name, Scene& scene) {
     scene.instance_classes.resize(scene.instances.size());
     scene.instances.push_back(name);
-    scene.instance_classes.push_back(config.class_name.empty() ? config.name : config.class_name);
+    scene.instance_classes.push_back(config.class_or_name());
     return static_cast<std::uint32_t>(scene.instances.size() - 1);
 }
 
@@ -127,10 +127,10 @@ double section_of(const ParticlesConfig& config, const DrawnParticle& drawn, con
 void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& scene,
                    std::span<Sonar> sonars) {
     if (mission.scene.particles.empty()) return;
-    Particles none;
+    std::vector<double> time_s;
     for (const TimedPose& pose : trajectory)
-        none.time_s.push_back(pose.t_s - trajectory.front().t_s);
-    std::vector<Particles> of_sonar(sonars.size(), none);
+        time_s.push_back(pose.t_s - trajectory.front().t_s);
+    std::vector<std::vector<Particle>> of_sonar(sonars.size());
     std::uint32_t number = 0;
     for (const ParticlesConfig& config : mission.scene.particles) {
         const PhiloxKey key = stream_key(mission.seed, number++, 0, stream_named("particles"));
@@ -139,14 +139,15 @@ void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& 
         for (std::size_t s = 0; s < sonars.size(); ++s) {
             const double frequency_hz = sonars[s].config.instrument.frequency_hz;
             for (const DrawnParticle& drawn : targets) {
-                Particle& particle = of_sonar[s].all.emplace_back(drawn.particle);
+                Particle& particle = of_sonar[s].emplace_back(drawn.particle);
                 particle.section_m2 =
                     static_cast<float>(section_of(config, drawn, mission, frequency_hz));
             }
         }
     }
     for (std::size_t s = 0; s < sonars.size(); ++s)
-        sonars[s].settings.particles = std::make_shared<const Particles>(std::move(of_sonar[s]));
+        sonars[s].settings.sources.push_back(
+            std::make_shared<const Particles>(std::move(of_sonar[s]), time_s));
 }
 
 }  // namespace sonarsim

@@ -106,7 +106,7 @@ class ImageFormer {
         PatchBlock block;
         subdivide(samples, taper_shape(kind, context_.view.shape), limits, block,
                   [&](PatchBlock& pieces) {
-                      find(kind, samples, pieces, &limits);
+                      find(kind_of(kind), samples, pieces, &limits);
                       beams_.deposit(pieces, echoes_, nullptr, grid, nullptr);
                   });
     }
@@ -122,7 +122,7 @@ class ImageFormer {
         Amplitudes amplitudes;
         find_scatterers(surface, context_.view.shape, model_.cells, sonar_, scene_draws_, block,
                         [&](const Scatterers&) {
-                            find(SampleKind::surface, surface, block.pieces, nullptr);
+                            find(kind_of(SampleKind::surface), surface, block.pieces, nullptr);
                             draw_amplitudes(block, echoes_, model_.cells, sonar_, scene_draws_,
                                             amplitudes);
                             beams_.deposit(block.pieces, echoes_, &amplitudes, grid, mean_.get());
@@ -131,12 +131,13 @@ class ImageFormer {
 
     /// Computes the echoes of a block of pieces: levels, range bins and columns of the grid.
     /// Surface has its map's strengths and its texture. `limits`: as PieceStrengths::apply().
-    void find(SampleKind kind, std::span<const Sample> samples, PatchBlock& pieces,
+    void find(const KindOfSample& kind, std::span<const Sample> samples, PatchBlock& pieces,
               const PointLimits* limits) {
-        const bool is_surface = kind_of(kind).is_surface;
+        const bool is_surface = kind.is_surface;
         ping_.counts.echoes += pieces.count;
-        ping_.counts.out_of_range += find_echoes(
-            kind, model_, is_surface ? surface_scattering() : model_.scattering, pieces, echoes_);
+        ping_.counts.out_of_range +=
+            find_echoes(kind.is_point, model_,
+                        is_surface ? surface_scattering() : model_.scattering, pieces, echoes_);
         ping_.counts.out_of_range += beams_.find_columns(pieces, echoes_);
         if (!is_surface) return;
         strengths_.apply(samples, pieces, limits, echoes_.power);
@@ -250,7 +251,7 @@ class ImageFormer {
         const double turns_per_m = 2.0 / model_.wavelength_m;
         PatchBlock block;
         subdivide(std::span(scatterers.points), {}, {}, block, [&](PatchBlock& points) {
-            find(SampleKind::particle, scatterers.points, points, nullptr);
+            find({.is_point = true}, scatterers.points, points, nullptr);
             if (have_texture) {
                 for (int k = 0; k < points.count; ++k)
                     points.material[k] = scatterers.points[points.sample[k]].material;

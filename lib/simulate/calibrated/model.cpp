@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/clock.h"
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "core/units.h"
@@ -14,7 +15,6 @@
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/expected_echo.h"
 #include "simulate/calibrated/equation/water.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

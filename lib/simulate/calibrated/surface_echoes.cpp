@@ -107,7 +107,7 @@ class SurfaceEchoFinder {
     void add(SampleKind kind, std::span<const Sample> samples) {
         if (kind == SampleKind::behind_wall) blocks_.begin_behind_walls();
         subdivide(samples, taper_shape(kind, shape_), limits_, pieces_, [&](PatchBlock& pieces) {
-            find_echoes(kind, model_, model_.scattering, pieces, echoes_);
+            find_echoes(kind_of(kind).is_point, model_, model_.scattering, pieces, echoes_);
             if (kind_of(kind).is_surface)
                 strengths_.apply(samples, pieces, &limits_, echoes_.power);
             int last_piece = -1;
@@ -235,8 +235,11 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     const SamplesByKind samples(traced.samples.items, true);
     SurfaceEchoFinder finder(*this, traced, scene, view.shape, request.patches, use);
     std::optional<NearObjects> near_objects;
+    const bool all_surface = std::ranges::all_of(kinds_of_samples, [&](const KindOfSample& kind) {
+        return kind.is_surface || !kind.has_labels || samples.of(kind.kind).empty();
+    });
     if (request.objects && !request.patches && paths.empty() && beams->cones.exist() &&
-        samples.of(SampleKind::particle).empty()) {
+        all_surface) {
         near_objects.emplace(*request.objects);
         for (const KindOfSample& kind : kinds_of_samples) {
             if (kind.is_surface) near_objects->add(samples.of(kind.kind));

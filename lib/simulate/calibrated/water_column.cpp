@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

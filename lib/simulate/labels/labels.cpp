@@ -273,20 +273,19 @@ void copy_beam(const PingLabels& from, int beam, const LabelRequest& request, Pi
 PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                       const SceneObjects& objects, const VisibilityEngine& engine,
                       const LabelRequest& request) {
-    PingLabels labels = label_group(traced, settings, scene, objects, engine, request);
-    for (int group = 1; group < traced.groups(); ++group) {
-        const PingLabels later =
-            label_group(traced.group(group), settings, scene, objects, engine, request);
-        for (int beam = 0; beam < labels.beams; ++beam) {
-            if (traced.transmits(group, beam)) copy_beam(later, beam, request, labels);
+    const auto label = [&](const TracedPing& group, int /*number*/) {
+        return label_group(group, settings, scene, objects, engine, request);
+    };
+    const auto take_beam = [&](const PingLabels& from, int beam, PingLabels& to) {
+        copy_beam(from, beam, request, to);
+    };
+    // The first group that sees an object counts.
+    const auto take_shares = [](const PingLabels& from, PingLabels& to) {
+        for (std::size_t k = 0; k < to.visible_share.size(); ++k) {
+            if (std::isnan(to.visible_share[k])) to.visible_share[k] = from.visible_share[k];
         }
-        // The first group that sees an object counts.
-        for (std::size_t k = 0; k < labels.visible_share.size(); ++k) {
-            if (std::isnan(labels.visible_share[k]))
-                labels.visible_share[k] = later.visible_share[k];
-        }
-    }
-    return labels;
+    };
+    return by_groups(traced, label, take_beam, take_shares);
 }
 
 }  // namespace sonarsim

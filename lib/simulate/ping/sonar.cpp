@@ -65,19 +65,20 @@ Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t 
 
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms) {
-    Ping ping = form_group(traced, settings, scene, key, 0, terms);
-    for (int group = 1; group < traced.groups(); ++group) {
-        const Ping later = form_group(traced.group(group), settings, scene, key, group, terms);
-        for (std::size_t at = 0; at < ping.intensity.size(); ++at) {
-            if (traced.transmits(group,
-                                 static_cast<int>(at % static_cast<std::size_t>(ping.beams))))
-                ping.intensity[at] = later.intensity[at];
-        }
-        ping.counts += later.counts;
-        ping.seconds += later.seconds;
-    }
-    // Each group is traced with all beams and gives its own to the image.
-    divide(ping.counts, static_cast<std::size_t>(traced.groups()));
+    const auto form = [&](const TracedPing& group, int number) {
+        return form_group(group, settings, scene, key, number, terms);
+    };
+    const auto take_beam = [](const Ping& from, int beam, Ping& to) {
+        for (auto at = static_cast<std::size_t>(beam); at < to.intensity.size();
+             at += static_cast<std::size_t>(to.beams))
+            to.intensity[at] = from.intensity[at];
+    };
+    const auto add_counts = [](const Ping& from, Ping& to) {
+        to.counts += from.counts;
+        to.seconds += from.seconds;
+    };
+    Ping ping = by_groups(traced, form, take_beam, add_counts);
+    divide(ping.counts, 1 + traced.later_groups.size());
     return ping;
 }
 

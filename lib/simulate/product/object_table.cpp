@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "simulate/trace/sample_kinds.h"
 
 namespace sonarsim {
 
@@ -95,34 +94,7 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
         box.extend(sample.position - reach);
         box.extend(sample.position + reach);
     };
-    if (traced.groups() == 1) {
-        for (const Sample& sample : traced.samples.items) {
-            if (kind_of(sample.kind).is_surface) extend(sample);
-        }
-        return boxes;
-    }
-    const Eigen::Quaterniond to_first = traced.T_world_sensor.rotation.conjugate();
-    for (int number = 0; number < traced.groups(); ++number) {
-        const TracedPing& group = traced.group(number);
-        const Eigen::Matrix3f turn =
-            (to_first * group.T_world_sensor.rotation).toRotationMatrix().cast<float>();
-        const Eigen::Vector3f shift =
-            (to_first * (group.T_world_sensor.translation - traced.T_world_sensor.translation))
-                .cast<float>();
-        const auto extend_turned = [&](Sample sample) {
-            sample.position = turn * sample.position + shift;
-            sample.edge_u = turn * sample.edge_u;
-            sample.edge_v = turn * sample.edge_v;
-            extend(sample);
-        };
-        for (int beam = 0; beam < std::ssize(traced.group_of_beam); ++beam) {
-            if (traced.transmits(number, beam))
-                std::ranges::for_each(group.samples.beam(beam), extend_turned);
-        }
-        for (const Sample& sample : group.samples.in_no_beam()) {
-            if (sample.kind == SampleKind::behind_wall) extend_turned(sample);
-        }
-    }
+    for_each_received(traced, extend);
     return boxes;
 }
 

@@ -117,11 +117,9 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
                     const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
                     const Terms& terms) {
     TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
-    if (const auto& particles = sonar.settings.particles) {
-        const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
-        add_particles(*particles, time_s, sonar.settings.view, engine, T_world_sensor, motion,
-                      traced.samples);
-    }
+    const TraceContext context{sonar.settings.view, scene, engine, T_world_sensor};
+    for (const auto& source : sonar.settings.sources)
+        source->add(context, motion, pose, traced.samples);
     return traced;
 }
 

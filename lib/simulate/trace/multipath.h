@@ -2,12 +2,10 @@
 
 #include <vector>
 
-#include "core/pose.h"
-#include "input/scene/scene.h"
 #include "simulate/trace/bounce_path.h"
 #include "simulate/trace/clusters.h"
 #include "simulate/trace/counters.h"
-#include "simulate/visibility/engine.h"
+#include "simulate/trace/trace_context.h"
 
 namespace sonarsim {
 
@@ -17,14 +15,6 @@ struct Multipath {
     ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
     /// Keeps paths that the second surface reflects away from the sonar.
     bool scattered = false;
-};
-
-/// The scene and the sonar that paths are traced for.
-struct TraceContext {
-    const View& view;
-    const Scene& scene;
-    const VisibilityEngine& engine;
-    const Pose& T_world_sensor;
 };
 
 /// Follows the sound that `samples` reflect to a second surface h and from there to the sonar. The

@@ -1,6 +1,11 @@
 #include "simulate/trace/particles.h"
 
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/decibel.h"
+#include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {
 
@@ -25,17 +30,18 @@ void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
 
 }  // namespace
 
-void add_particles(const Particles& particles, double time_s, const View& view,
-                   const VisibilityEngine& engine, const Pose& T_world_sensor,
-                   const PingMotion& motion, Samples& samples) {
+void Particles::add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
+                    Samples& samples) const {
+    const auto& [view, scene, engine, T_world_sensor] = context;
     const GuardedField field(view);
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     std::vector<Sample> points;
     std::vector<SightPoint> sights;
-    for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
-        const Particle& particle = particles.all[k];
+    for (std::uint32_t k = 0; k < all_.size(); ++k) {
+        const Particle& particle = all_[k];
         const Eigen::Vector3f place =
-            (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
+            (to_sensor * (place_at(particle, time_s(pose)) - T_world_sensor.translation))
+                .cast<float>();
         const float range = place.norm();
         if (!(range > 0.0F && range < static_cast<float>(view.range_max_m)) ||
             !field.contains(place))
@@ -57,6 +63,32 @@ void add_particles(const Particles& particles, double time_s, const View& view,
         if (!visible[k]) continue;
         samples.items.push_back(points[k]);
         if (!motion.is_still()) move_point(motion, view.shape, samples.items.back());
+    }
+}
+
+void Particles::describe(const Samples& samples, const Scene& scene, std::uint32_t pose,
+                         nlohmann::ordered_json& ping) const {
+    struct Sum {
+        int count = 0;
+        double section_m2 = 0.0;
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    };
+    std::map<std::uint32_t, Sum> sums;  // keyed by instance
+    for (const Sample& sample : samples.in_no_beam()) {
+        if (sample.kind != SampleKind::particle) continue;
+        Sum& sum = sums[sample.instance];
+        ++sum.count;
+        sum.section_m2 += all_[sample.number].section_m2;
+        sum.place += place_at(all_[sample.number], time_s(pose));
+    }
+    nlohmann::ordered_json& json = ping["particles"] = nlohmann::ordered_json::object();
+    for (const auto& [instance, sum] : sums) {
+        const Eigen::Vector3d place = sum.place / sum.count;
+        // To a hundredth of a decibel, since the cross-sections are floats.
+        const double strength_db = std::round(100.0 * db_of_power(sum.section_m2)) / 100.0;
+        json[scene.instances[instance]] = {{"count", sum.count},
+                                           {"position_m", {place.x(), place.y(), place.z()}},
+                                           {"target_strength_db", strength_db}};
     }
 }
 

@@ -2,12 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "core/pose.h"
-#include "simulate/trace/ping_motion.h"
-#include "simulate/trace/visible_surface.h"
-#include "simulate/visibility/engine.h"
+#include "simulate/trace/sample_source.h"
 
 namespace sonarsim {
 
@@ -23,19 +21,32 @@ struct Particle {
     std::uint32_t instance = 0;  ///< index into Scene::instances
 };
 
-/// The point targets of a scene, with their strengths at the frequency of one sonar.
-struct Particles {
-    std::vector<Particle> all;
-    std::vector<double> time_s;  ///< since the first ping, by pose of the trajectory
-};
-
 /// The place of a particle, world.
 Eigen::Vector3d place_at(const Particle& particle, double time_s);
 
-/// Adds the particles in view that no surface hides. One ray tests each. Their samples are points:
-/// without edges, with the cross-section as their area, facing the sonar.
-void add_particles(const Particles& particles, double time_s, const View& view,
-                   const VisibilityEngine& engine, const Pose& T_world_sensor,
-                   const PingMotion& motion, Samples& samples);
+/// The point targets of a scene, with their strengths at the frequency of one sonar.
+class Particles final : public SampleSource {
+  public:
+    /// `time_s`: since the first ping, by pose of the trajectory; 0 for poses beyond its end.
+    Particles(std::vector<Particle> all, std::vector<double> time_s)
+        : all_(std::move(all)), time_s_(std::move(time_s)) {}
+
+    /// Adds the particles in view that no surface hides. One ray tests each. Their samples are
+    /// points: without edges, with the cross-section as their area, facing the sonar.
+    void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
+             Samples& samples) const override;
+
+    /// Adds `particles`: by object the number that is received, their mean place and total
+    /// strength.
+    void describe(const Samples& samples, const Scene& scene, std::uint32_t pose,
+                  nlohmann::ordered_json& ping) const override;
+
+    const std::vector<Particle>& all() const { return all_; }
+    double time_s(std::uint32_t pose) const { return pose < time_s_.size() ? time_s_[pose] : 0.0; }
+
+  private:
+    std::vector<Particle> all_;
+    std::vector<double> time_s_;
+};
 
 }  // namespace sonarsim

@@ -20,21 +20,22 @@ enum class PhaseSource {
 
 /// The properties of the samples of a kind.
 struct KindOfSample {
-    SampleKind kind;
-    PhaseSource phase;
-    const char* stream;  ///< names the draws of the phases, if they have draws of their own
-    bool is_surface;     ///< the scene has it, and the reference, too; else it belongs to the water
-    bool hides;          ///< it ends the water and the sight lines of labels
-    bool has_labels;
+    SampleKind kind = SampleKind::surface;
+    PhaseSource phase = PhaseSource::scene;
+    const char* stream = "";  ///< names the draws of the phases, if they have draws of their own
+    bool is_surface = false;  ///< the scene and the reference have it; else it belongs to the water
+    bool is_point = false;    ///< its area is its backscattering cross-section
+    bool hides = false;       ///< it ends the water and the sight lines of labels
+    bool has_labels = false;
 };
 
 /// All kinds, in the order in which their echoes are added.
 inline constexpr std::array<KindOfSample, 5> kinds_of_samples{{
-    {SampleKind::surface, PhaseSource::scene, "", true, true, true},
-    {SampleKind::target, PhaseSource::own, "", true, true, true},
-    {SampleKind::particle, PhaseSource::own, "particles", false, false, true},
-    {SampleKind::behind_wall, PhaseSource::ping, "behind walls", true, false, true},
-    {SampleKind::water_surface, PhaseSource::ping, "water surface", false, false, false},
+    {SampleKind::surface, PhaseSource::scene, "", true, false, true, true},
+    {SampleKind::target, PhaseSource::own, "", true, false, true, true},
+    {SampleKind::particle, PhaseSource::own, "particles", false, true, false, true},
+    {SampleKind::behind_wall, PhaseSource::ping, "behind walls", true, false, false, true},
+    {SampleKind::water_surface, PhaseSource::ping, "water surface", false, false, false, false},
 }};
 
 constexpr const KindOfSample& kind_of(SampleKind kind) {

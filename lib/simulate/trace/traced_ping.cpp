@@ -1,8 +1,10 @@
 #include "simulate/trace/traced_ping.h"
 
+#include <algorithm>
+
 #include "core/clock.h"
+#include "simulate/trace/sample_kinds.h"
 #include "simulate/trace/target_surface.h"
-#include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
 
@@ -34,8 +36,6 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         move_in_ping(motion, view, of);
     };
     finish(samples);
-    if (settings.sees_water_surface)
-        add_water_surface(view, scene, engine, T_world_sensor, motion, samples);
     if (settings.multipath.on && &engine.by_rays() != &engine) {
         Samples rays = visible_surface(view, engine.by_rays(), T_world_sensor);
         replace_samples(targets, view, rays);
@@ -47,6 +47,37 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     // 2. Multipath, Eq. 1-3.
     if (terms.multipath) trace_multipath(settings, scene, engine, traced);
     return traced;
+}
+
+void for_each_received(const TracedPing& traced, const std::function<void(const Sample&)>& use) {
+    if (traced.later_groups.empty()) {
+        for (const Sample& sample : traced.samples.items) {
+            if (kind_of(sample.kind).is_surface) use(sample);
+        }
+        return;
+    }
+    const Pose& first = traced.T_world_sensor;
+    const Eigen::Quaterniond to_first = first.rotation.conjugate();
+    for (int number = 0; number <= std::ssize(traced.later_groups); ++number) {
+        const TracedPing& group = number == 0 ? traced : traced.later_groups[number - 1];
+        const Pose& own = group.T_world_sensor;
+        const Eigen::Matrix3f turn = (to_first * own.rotation).toRotationMatrix().cast<float>();
+        const Eigen::Vector3f shift =
+            (to_first * (own.translation - first.translation)).cast<float>();
+        const auto use_turned = [&](Sample sample) {
+            sample.position = turn * sample.position + shift;
+            sample.edge_u = turn * sample.edge_u;
+            sample.edge_v = turn * sample.edge_v;
+            use(sample);
+        };
+        for (int beam = 0; beam < std::ssize(traced.group_of_beam); ++beam) {
+            if (traced.group_of_beam[static_cast<std::size_t>(beam)] == number)
+                std::ranges::for_each(group.samples.beam(beam), use_turned);
+        }
+        for (const Sample& sample : group.samples.in_no_beam()) {
+            if (sample.kind == SampleKind::behind_wall) use_turned(sample);
+        }
+    }
 }
 
 void trace_multipath(const TraceSettings& settings, const Scene& scene,

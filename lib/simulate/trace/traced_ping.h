@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,9 +11,9 @@
 #include "simulate/trace/apply_maps.h"
 #include "simulate/trace/counters.h"
 #include "simulate/trace/multipath.h"
-#include "simulate/trace/particles.h"
 #include "simulate/trace/ping.h"
 #include "simulate/trace/ping_motion.h"
+#include "simulate/trace/sample_source.h"
 #include "simulate/trace/target_shapes.h"
 #include "simulate/trace/visible_surface.h"
 #include "simulate/visibility/engine.h"
@@ -25,8 +26,7 @@ struct TraceSettings {
     Multipath multipath;
     /// Objects that the trace samples itself where an engine's samples cannot; null: none.
     std::shared_ptr<const TargetShapes> targets;
-    std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
-    bool sees_water_surface = false;             ///< if the surface scatters
+    std::vector<std::shared_ptr<const SampleSource>> sources;  ///< the water's
     MapStrengths map_strengths = MapStrengths::in_samples;
     std::vector<float> wall_transmissions;  ///< see add_behind_walls(); empty: none
 };
@@ -49,14 +49,28 @@ struct TracedPing {
 
     /// The samples that `bounces` number.
     const Samples& starts() const { return rays ? *rays : samples; }
-    int groups() const { return 1 + static_cast<int>(later_groups.size()); }
-    const TracedPing& group(int number) const {
-        return number == 0 ? *this : later_groups[static_cast<std::size_t>(number) - 1];
-    }
-    bool transmits(int number, int beam) const {
-        return group_of_beam.empty() || group_of_beam[static_cast<std::size_t>(beam)] == number;
-    }
 };
+
+/// Makes something of a ping in each beam. Every group of beams is traced with all beams:
+/// make(group, number) makes it from the trace of one, take_beam(from, beam, to) takes a beam that
+/// transmits in a later group, and take_all(from, to) the rest of that group.
+template <class Make, class TakeBeam, class TakeAll>
+auto by_groups(const TracedPing& traced, Make make, TakeBeam take_beam, TakeAll take_all) {
+    auto out = make(traced, 0);
+    int number = 0;
+    for (const TracedPing& group : traced.later_groups) {
+        const auto later = make(group, ++number);
+        for (int beam = 0; beam < std::ssize(traced.group_of_beam); ++beam) {
+            if (traced.group_of_beam[static_cast<std::size_t>(beam)] == number)
+                take_beam(later, beam, out);
+        }
+        take_all(later, out);
+    }
+    return out;
+}
+
+/// Calls use(sample) for the surface that a ping receives, in the sensor's frame at transmission.
+void for_each_received(const TracedPing& traced, const std::function<void(const Sample&)>& use);
 
 /// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
 /// steps 1 and 2 of docs/model.md.

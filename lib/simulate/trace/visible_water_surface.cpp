@@ -116,8 +116,9 @@ class SurfaceCutter {
 
 }  // namespace
 
-void add_water_surface(const View& view, const Scene& scene, const VisibilityEngine& engine,
-                       const Pose& T_world_sensor, const PingMotion& motion, Samples& samples) {
+void ScatteringSurface::add(const TraceContext& context, const PingMotion& motion,
+                            std::uint32_t /*pose*/, Samples& samples) const {
+    const auto& [view, scene, engine, T_world_sensor] = context;
     const std::optional<WaterMirror> surface = mirror_of(scene.water_surface, T_world_sensor);
     if (!surface || !scene.water_surface->wind_m_s) return;
     const auto material = static_cast<std::uint32_t>(scene.materials.size());

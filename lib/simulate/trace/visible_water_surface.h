@@ -6,9 +6,7 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
-#include "simulate/trace/ping_motion.h"
-#include "simulate/trace/visible_surface.h"
-#include "simulate/visibility/engine.h"
+#include "simulate/trace/sample_source.h"
 
 namespace sonarsim {
 
@@ -46,11 +44,14 @@ inline std::optional<WaterMirror> mirror_of(const std::optional<WaterSurface>& s
     return WaterMirror{up, height, surface->reflection, 2.0F * height * up};
 }
 
-/// Adds the water's surface that scatters, as a sonar below it sees it: in its view, and for a
-/// side-scan sonar all around the track, since its beam patterns reach upwards as well. The
-/// material of the samples is the one after those of the scene; they have no instance. One ray
-/// decides on the visibility of each.
-void add_water_surface(const View& view, const Scene& scene, const VisibilityEngine& engine,
-                       const Pose& T_world_sensor, const PingMotion& motion, Samples& samples);
+/// The water's surface that scatters, as a sonar below it sees it: in its view, and for a side-scan
+/// sonar all around the track, since its beam patterns reach upwards as well. The material of the
+/// samples is the one after those of the scene; they have no instance. One ray decides on the
+/// visibility of each.
+class ScatteringSurface final : public SampleSource {
+  public:
+    void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
+             Samples& samples) const override;
+};
 
 }  // namespace sonarsim

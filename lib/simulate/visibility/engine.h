@@ -43,8 +43,8 @@ struct Sample {
     /// Factor on the power that the material sends back, from a map of the scene
     /// (simulate/trace/apply_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
-    /// A target: the number of the smooth surface of its instance, from 1 on. A particle: its index
-    /// into Particles::all.
+    /// A target: the number of the smooth surface of its instance, from 1 on. A sample of a source
+    /// (simulate/trace/sample_source.h): the number that this gives it.
     std::uint32_t number = 0;
     SampleKind kind = SampleKind::surface;
     bool widens_from_axis = false;  ///< the footprint of a ray in a cone (taper.h)

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decibel.h"
 #include "core/units.h"
 #include "simulate/calibrated/beams/beams.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/line_array.h"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "core/decibel.h"
 #include "core/units.h"
 #include "input/scene/materials.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/seafloor_scattering.h"
 #include "simulate/calibrated/equation/water.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/range_response.h"
 

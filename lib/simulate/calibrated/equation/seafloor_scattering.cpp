@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/decibel.h"
 #include "core/lanes.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
 #include "simulate/calibrated/signal/line_array.h"
 #include "simulate/trace/arrivals.h"

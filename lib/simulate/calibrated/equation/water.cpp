@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decibel.h"
 #include "core/units.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/bottom.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "simulate/calibrated/signal/decibel.h"
 
 namespace sonarsim {
 

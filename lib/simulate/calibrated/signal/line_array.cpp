@@ -3,9 +3,9 @@
 #include <cmath>
 #include <span>
 
+#include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/calibrated/signal/decibel.h"
 #include "simulate/calibrated/signal/fourier.h"
 
 namespace sonarsim {

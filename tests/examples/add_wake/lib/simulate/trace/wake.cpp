@@ -32,31 +32,32 @@ double length_within(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from
     return std::max(end - begin, 0.0) * way.matrix().norm();
 }
 
-void add_wake(const Wake& wake, SampleKind kind, const VisibilityEngine& engine,
-              const Pose& T_world_sensor, Samples& samples) {
+void Wake::add(const TraceContext& context, const PingMotion& /*motion*/, std::uint32_t /*pose*/,
+               Samples& samples) const {
+    const Pose& T_world_sensor = context.T_world_sensor;
     const Eigen::Vector3d& sonar = T_world_sensor.translation;
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     std::vector<Sample> own;
     std::vector<SightPoint> sights;
-    const Eigen::Array3d from = wake.box_m.min().array() + 0.5 * wake.cell_m;
-    const auto section = static_cast<float>(wake.scattering_per_m * std::pow(wake.cell_m, 3));
-    for (double x = from.x(); x < wake.box_m.max().x(); x += wake.cell_m) {
-        for (double y = from.y(); y < wake.box_m.max().y(); y += wake.cell_m) {
-            for (double z = from.z(); z < wake.box_m.max().z(); z += wake.cell_m) {
+    const Eigen::Array3d from = config_.box_m.min().array() + 0.5 * config_.cell_m;
+    const auto section = static_cast<float>(config_.scattering_per_m * std::pow(config_.cell_m, 3));
+    for (double x = from.x(); x < config_.box_m.max().x(); x += config_.cell_m) {
+        for (double y = from.y(); y < config_.box_m.max().y(); y += config_.cell_m) {
+            for (double z = from.z(); z < config_.box_m.max().z(); z += config_.cell_m) {
                 const Eigen::Vector3d place = to_sensor * (Eigen::Vector3d(x, y, z) - sonar);
-                own.push_back(sample_of(place.cast<float>(), section, kind));
+                own.push_back(sample_of(place.cast<float>(), section, kind_));
                 sights.push_back({own.back().position});
             }
         }
     }
-    const std::vector<bool> visible = engine.visible(T_world_sensor, sights);
+    const std::vector<bool> visible = context.engine.visible(T_world_sensor, sights);
     for (std::size_t k = 0; k < own.size(); ++k) {
         if (visible[k]) samples.items.push_back(own[k]);
     }
     for (Sample& sample : samples.items) {
         const Eigen::Vector3d place = T_world_sensor.rotation * sample.position.cast<double>();
-        const double length = length_within(wake.box_m, sonar, sonar + place);
-        sample.strength *= std::exp(-2.0F * wake.absorption_per_m * static_cast<float>(length));
+        const double length = length_within(config_.box_m, sonar, sonar + place);
+        sample.strength *= std::exp(-2.0F * config_.absorption_per_m * static_cast<float>(length));
     }
 }
 

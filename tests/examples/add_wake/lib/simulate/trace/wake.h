@@ -2,14 +2,13 @@
 
 #include <Eigen/Geometry>
 
-#include "core/pose.h"
-#include "simulate/visibility/engine.h"
+#include "simulate/trace/sample_source.h"
 
 namespace sonarsim {
 
 /// A cloud of bubbles behind a ship. Sound loses power on its way through it and comes back from
 /// it.
-struct Wake {
+struct WakeConfig {
     Eigen::AlignedBox3d box_m;      ///< world
     float absorption_per_m = 0.0F;  ///< one way: power falls as e^-(absorption times length)
     float scattering_per_m = 0.0F;  ///< backscattering cross-section of a cubic metre, 1/m
@@ -20,9 +19,18 @@ struct Wake {
 double length_within(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from,
                      const Eigen::Vector3d& to);
 
-/// Weakens the samples behind or in the wake, and adds those of the wake that nothing hides, of the
-/// kind `kind`. `samples` are in the sensor's frame.
-void add_wake(const Wake& wake, SampleKind kind, const VisibilityEngine& engine,
-              const Pose& T_world_sensor, Samples& samples);
+class Wake final : public SampleSource {
+  public:
+    /// `kind`: of its samples.
+    Wake(const WakeConfig& config, SampleKind kind) : config_(config), kind_(kind) {}
+
+    /// Also weakens the samples behind or in the wake.
+    void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
+             Samples& samples) const override;
+
+  private:
+    WakeConfig config_;
+    SampleKind kind_;
+};
 
 }  // namespace sonarsim
