@@ -47,6 +47,27 @@ TEST_CASE("echosounder, side-scan: a flat bottom echoes as R H / r over the view
     }
 }
 
+// Rolled to port by a, a sonar at the height H has its foot on the starboard side, at H. The point
+// nearest to port lies on the border of the two, at H / cos a. A table hides the foot.
+TEST_CASE("side-scan: the first return is that of the nearest bottom in view") {
+    Scene scene = floor_scene(100.0F, 0.0F, 0.6F);
+    scene.is_bottom = {1};
+    const Sonar sonar = make_sonar(default_sonar(SonarKind::sidescan), {});
+    const auto first = [&](const char* side) {
+        const Pose vehicle{rotation_from_rpy(radians(20.0), 0.0, 0.0), {0.0, 0.0, 5.0}};
+        const auto engine = engine_of(scene, EngineKind::strips);
+        const TracedPing traced = trace(sonar, scene, *engine, vehicle, 0);
+        const PingView view{sonar, vehicle, 0, {}, traced, scene.is_bottom};
+        return measured(view, *engine).at("first_return_m").at(side).get<double>();
+    };
+    CHECK(first("starboard") == approx(5.0).epsilon(1e-3));
+    CHECK(first("port") == approx(5.0 / std::cos(radians(20.0))).epsilon(1e-3));
+    // Seen from 5 m, an edge 1 m off at 2.5 m of height hides the floor as far as 2 m off.
+    scene.instances.emplace_back("table");
+    add_rectangle(scene, {-9.0F, -1.0F, 2.5F}, {9.0F, 9.0F, 2.5F}, 0);
+    CHECK(first("starboard") == approx(std::hypot(5.0, 2.0)).epsilon(0.01));
+}
+
 TEST_CASE("echosounder: range noise does not fade") {
     // A bottom within one scatterer cell: each ping draws one w, and the echo keeps its strength
     // wherever it lands; an imaging sonar's would be weaker by exp(-w / lambda).

@@ -52,7 +52,7 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
     const std::uint64_t clipped = count_above(ping.intensity, white);
     const auto metadata = measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose,
-                                    ping, assembly.scene.water_surface},
+                                    ping, traced, assembly.scene.is_bottom},
                                    *engine);
     LabelledPing labels;
     if (plan.on) {

@@ -261,10 +261,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();
-    if (needs_ground && bottom.exists()) {
-        parts.bottom = bottom.share();
-        bottom.mark(parts.files);
-    }
+    if (bottom.exists() && !places_only) bottom.mark(parts.files);
+    if (needs_ground && bottom.exists()) parts.bottom = bottom.share();
     return parts;
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "simulate/product/bottom.h"
-#include "simulate/trace/visible_water_surface.h"
+#include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -12,15 +12,6 @@ namespace {
 
 double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
-}
-
-/// The bin at which the water's surface is due if it scatters; nothing beyond range_max.
-std::optional<int> bin_of(const std::optional<WaterSurface>& surface, const SonarConfig& config,
-                          const Pose& T_world_sensor) {
-    const std::optional<WaterMirror> above = mirror_of(surface, T_world_sensor);
-    if (!above || !surface->wind_m_s || above->height_m > config.range_max_m) return std::nullopt;
-    return static_cast<int>(
-        std::floor((above->height_m - config.range_min_m) / width_of_bin_m(config)));
 }
 
 /// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.
@@ -59,15 +50,20 @@ std::vector<std::int32_t> waterfall_bins(const SonarConfig& config) {
     return bins;
 }
 
-std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
-                                     const std::optional<WaterSurface>& surface,
-                                     const Pose& T_world_sensor) {
-    std::vector<float> column(ping.range_bins);
-    for (int i = 0; i < ping.range_bins; ++i)
-        column[i] = ping.at(i, beam);
-    const std::optional<int> bin =
-        first_return_of_swath(column, bin_of(surface, sonar.config, T_world_sensor));
-    return bin ? std::optional(sonar.middle_m(*bin)) : std::nullopt;
+std::optional<double> first_return_m(const Samples& samples,
+                                     std::span<const std::uint8_t> is_bottom, const View& view,
+                                     int beam) {
+    float nearest_m = std::numeric_limits<float>::infinity();
+    for (const Sample& sample : samples.beam(beam)) {
+        if (sample.instance >= is_bottom.size() || is_bottom[sample.instance] == 0) continue;
+        const auto [range_m, direction] = arrival_of(sample.position);
+        const float half_m =
+            std::fabs(sample.edge_u.dot(direction)) + std::fabs(sample.edge_v.dot(direction));
+        // No point of a plane is nearer than the plane.
+        nearest_m = std::min(nearest_m, std::max(range_m - half_m, sample.height_m));
+    }
+    if (!(nearest_m < view.range_max_m)) return std::nullopt;
+    return std::max<double>(nearest_m, view.range_min_m);
 }
 
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,

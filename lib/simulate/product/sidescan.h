@@ -31,11 +31,11 @@ int waterfall_columns(const SonarConfig& config);
 /// The bin of Ping::intensity, [range bins, 2], in each column; -1 where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
-/// Slant range of the first bottom return in a beam, m: the middle of its bin
-/// (first_return_of_swath()). Nothing if the side is dark. `surface`: of the water.
-std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam,
-                                     const std::optional<WaterSurface>& surface,
-                                     const Pose& T_world_sensor);
+/// The slant range from which on a beam receives the visible bottom, m; nothing beyond range_max.
+/// `is_bottom`: that of the scene.
+std::optional<double> first_return_m(const Samples& samples,
+                                     std::span<const std::uint8_t> is_bottom, const View& view,
+                                     int beam);
 
 /// The swath of a side-scan ping on ground taken as level, at its altitude. The plane of the scan,
 /// across the bow, meets it in a line.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct PingView {
     const Pose& T_world_vehicle;
     std::uint32_t pose;  ///< index on the trajectory
     const Ping& ping;
-    const std::optional<WaterSurface>& water_surface;
+    const TracedPing& traced;
+    std::span<const std::uint8_t> is_bottom;  ///< that of the scene
 };
 
 struct KindOfSonar {

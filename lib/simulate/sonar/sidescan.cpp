@@ -58,12 +58,10 @@ void waterfall_row(std::span<const float> row, double white, const StripFrame& /
     pixels[nadir] = nadir_colour;
 }
 
-/// The range of the first bottom return on either side.
 void measure_first_returns(const PingView& view, nlohmann::ordered_json& json) {
-    const Pose T_world_sensor = sensor_pose(view.sonar, view.T_world_vehicle, view.pose);
     const auto first = [&](int side) {
         return number_or_null(
-            first_return_m(view.sonar, view.ping, side, view.water_surface, T_world_sensor));
+            first_return_m(view.traced.samples, view.is_bottom, view.sonar.settings.view, side));
     };
     json["first_return_m"] = {{"port", first(Side::port)}, {"starboard", first(Side::starboard)}};
 }
