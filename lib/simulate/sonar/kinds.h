@@ -58,7 +58,7 @@ struct PingView {
     std::uint32_t pose;  ///< index on the trajectory
     const Ping& ping;
     const TracedPing& traced;
-    std::span<const std::uint8_t> is_bottom;  ///< that of the scene
+    std::span<const std::uint8_t> is_bottom;  ///< Scene::is_bottom
 };
 
 struct KindOfSonar {
