@@ -95,6 +95,29 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
     }
 }
 
+TEST_CASE("annotations: a shadow ends with the first ground behind the object") {
+    // A quay that ends behind the wall's shadow on it. The ground a metre below is hidden by the
+    // quay, although lines through the wall lead there, too.
+    Uniform draw(3);
+    for (int k = 0; k < 6; ++k) {
+        const double h = draw.between(0.3, 1.2);
+        const double r = draw.between(3.0, 5.0);
+        const double end_m = 3.0 * r / (3.0 - h);
+        CAPTURE_ALL(h, r);
+        Scene scene = floor_scene(40.0F, -1.0F, 0.5F);
+        const auto edge = static_cast<float>(end_m + 0.3);
+        add_triangle(scene, {-40, -40, 0}, {edge, -40, 0}, {edge, 40, 0}, 0);
+        add_triangle(scene, {-40, -40, 0}, {edge, 40, 0}, {-40, 40, 0}, 0);
+        const auto x = static_cast<float>(r);
+        add_rectangle(scene, {x, -0.3F, 0}, {x, 0.3F, static_cast<float>(h)}, 0);
+        const FoundObjects found(scene, wide_fan(), pitched(25.0, {0.0, 0.0, 3.0}),
+                                 {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.5}}, k % 2 == 1);
+        const ObjectInPing& wall = found.object(2);
+        const double last_m = found.sonar.range_edges_m[wall.shadow.last_bin + 1];
+        CHECK(std::fabs(last_m - std::hypot(end_m, 3.0)) < 0.06);
+    }
+}
+
 TEST_CASE("annotations: a shadow begins at the surface that casts it") {
     // A plate at 5 m hides another one almost edge-on, whose footprints reach far along the range.
     Scene scene = floor_scene(40.0F, -9.0F, 0.5F);

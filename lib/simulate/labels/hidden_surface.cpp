@@ -65,6 +65,13 @@ class LineTracer {
         return !objects_.is_background(owner_of(line));
     }
 
+    /// Notes the surface that a line has met. Returns its object.
+    std::uint32_t pass(SightLine& line, const Intersection& met) const {
+        const std::uint32_t object = objects_.object_of(met.instance);
+        line.behind_background = line.behind_background || objects_.is_background(object);
+        return object;
+    }
+
     /// True if wanted surface may lie behind a line.
     bool is_wanted(const SightLine& line) const {
         return (is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m)) &&
@@ -107,10 +114,10 @@ class LineTracer {
             const float each =
                 line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
             for (std::uint32_t beam = line.beam; beam <= line.last_beam; ++beam)
-                pieces_.push_back(
-                    {beam, owner_of(line), 0.5F * (near_m + far_m), 0.5F * (far_m - near_m), each});
+                pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
+                                   0.5F * (far_m - near_m), each, line.behind_background});
         }
-        const std::uint32_t object = objects_.object_of(met.instance);
+        const std::uint32_t object = pass(line, met);
         if (!has_met(nodes_, line.last_node, object)) {
             solid_angles_[object].hidden += line.solid_angle;
             nodes_.push_back({object, line.last_node});
@@ -122,7 +129,9 @@ class LineTracer {
     std::uint32_t owner_of(const SightLine& line) const {
         return objects_.object_of(line.sample->instance);
     }
-    bool is_shadow(const SightLine& line) const { return all_ || is_by_object(line); }
+    bool is_shadow(const SightLine& line) const {
+        return all_ || (is_by_object(line) && !line.behind_background);
+    }
 
     const LineWidth& width_;
     const SceneObjects& objects_;
@@ -160,6 +169,7 @@ std::vector<SightLine> divided_lines(std::span<const SightLine> whole, const Lin
             }
             if (!is_met) continue;
             line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
+            tracer.pass(line, met[k]);
             if (!tracer.is_wanted(line)) continue;
             number[kept] = number[k];
             lines[kept++] = line;

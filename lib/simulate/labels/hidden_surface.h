@@ -18,6 +18,7 @@ namespace sonarsim {
 struct HiddenPiece {
     std::uint32_t beam, object;  ///< the object that hides it
     float range_m, half_m, solid_angle;
+    bool behind_background = false;  ///< background would hide it without the object
 };
 
 /// The hidden surface of a ping. Sight lines continue behind the first surface that they meet; the
@@ -33,8 +34,9 @@ struct HiddenSurface {
 };
 
 /// Traces the hidden surface, but not in directions without any by `directions`. By::objects keeps
-/// only surface that objects, not background, hide, and hidden surface of these objects, which lie
-/// in `directions`; small objects cost little. `echoes` are those of the trace.
+/// only surface that objects hide, as far as the first background behind them, and hidden surface
+/// of these objects, which lie in `directions`; small objects cost little. `echoes` are those of
+/// the trace.
 HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
@@ -55,8 +57,9 @@ struct SightLine {
     float solid_angle;
     const Sample* sample;
     float share_u, share_v;
-    std::uint32_t beam, last_beam;  ///< its part of the footprint covers them
-    std::uint32_t last_node = 0;    ///< the last node of its way
+    std::uint32_t beam, last_beam;   ///< its part of the footprint covers them
+    std::uint32_t last_node = 0;     ///< the last node of its way
+    bool behind_background = false;  ///< of the sample's
 };
 
 /// Tells which sight lines are kept: most have nothing to find.

@@ -220,7 +220,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     if (request.annotations) {
         std::vector<HiddenPiece> by_objects = hidden.pieces;
         std::erase_if(by_objects, [&](const HiddenPiece& piece) {
-            return objects.is_background(piece.object);
+            return piece.behind_background || objects.is_background(piece.object);
         });
         std::optional<ShadowFinder> object_finder;  // none: no background hides anything
         if (by_objects.size() < hidden.pieces.size()) object_finder.emplace(by_objects, view);
