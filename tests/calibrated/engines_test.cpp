@@ -72,9 +72,11 @@ TEST_CASE("multipath of auto and of strips is that of rays") {
                 return expected_image(sonar, scene, engine, pose, multipath_alone);
             };
             const std::vector<float> rays = image(EngineKind::rays);
+            const std::vector<float> strips = image(EngineKind::strips);
             CHECK(std::ranges::max(rays) > 0.0F);
-            CHECK(image(EngineKind::automatic) == rays);
-            CHECK(image(EngineKind::strips) == rays);
+            CHECK(image(EngineKind::automatic) == strips);
+            if (model == ModelKind::paper) CHECK(strips == rays);  // the other takes more
+            CHECK(total(strips) == approx(total(rays)).epsilon(0.03));
         }
     }
 }
@@ -89,12 +91,14 @@ TEST_CASE("speckle over ripples keeps the level of the expected image") {
     const auto mean_db = [&](EngineKind engine) {
         Uniform random(31);
         constexpr int scenes = 8;
-        double db = 0.0;
+        double db = 0.0;  // scenes of one seed would share their scatterers
         for (int k = 0; k < scenes; ++k) {
             const Scene scene = ripples(random);
             const Pose pose = pitched(random.between(14.0, 20.0), {0.0, 0.0, 1.5});
             const auto sum = [&](const Terms& terms) -> double {
-                return total(expected_image(sonar, scene, engine, pose, terms));
+                const PingKey key{.seed = static_cast<std::uint64_t>(k)};
+                return total(render_ping(sonar, scene, *engine_of(scene, engine), pose, key, terms)
+                                 .intensity);
             };
             db += 10.0 * std::log10(sum({.random = 1}) / sum(direct_echoes_alone)) / scenes;
         }

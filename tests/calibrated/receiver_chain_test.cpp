@@ -230,7 +230,7 @@ TEST_CASE("reverberation: the tails of all speckle have their share of the energ
         config.receiver.reverberation_db = -3.0103;
         const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 60));
         double sum = 0.0;
-        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 32; ++seed) {
             const auto image =
                 image_of_samples(model, view, plate, {.random = 1}, {}, {seed, 2, 0});
             sum += total(std::span<const float>(image));

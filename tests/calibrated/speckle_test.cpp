@@ -1,3 +1,5 @@
+#include <set>
+
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "support/draws.h"
@@ -216,5 +218,31 @@ TEST_CASE("scatterers: the contrast of speckle is 1.00 to 1.03 at all ranges") {
         CHECK(std::fabs(mean(powers) - expected) < 4.0 * standard_error(powers) + 0.02 * expected);
         const double v = std::pow(deviation(powers) / mean(powers), 2.0);
         CHECK(std::sqrt(1.0 + 2.0 * v) < 1.03);
+    }
+}
+
+TEST_CASE("scatterers: floors at 0 and slopes of 45 degrees keep theirs as the sonar moves") {
+    const ScattererCells cells = scatterer_cells(0.02, radians(0.5), 0.3, 5e-3);
+    const auto names_from = [&](double slope, double lift_m) {
+        const Pose pose{rotation_from_rpy(0.0, 0.26, 0.05), {-3.0, 0.1, 2.0 + lift_m}};
+        const Samples surface = patches({0.0, 0.0, 0.0}, {std::cos(slope), 0.0, std::sin(slope)},
+                                        {0.0, 1.0, 0.0}, 1.0, 1.0, 0.1, pose);
+        const SonarInScene sonar{pose.rotation.toRotationMatrix().cast<float>(), pose.translation};
+        std::set<std::array<std::int32_t, 3>> names;
+        Scatterers block;
+        find_scatterers(
+            surface.items, ViewShape::fan, cells, sonar, {1, 1}, block,
+            [&](const Scatterers& found) {
+                for (int k = 0; k < found.pieces.count; ++k)
+                    names.insert({found.cell[0][k], found.cell[1][k], found.cell[2][k]});
+            });
+        return names;
+    };
+    for (const double slope : {0.0, 0.25 * pi, 0.5 * pi}) {
+        const auto names = names_from(slope, 0.0);
+        REQUIRE(names.size() > 1000);
+        const auto lost = std::ranges::count_if(
+            names_from(slope, 2e-5), [&](const auto& name) { return !names.contains(name); });
+        CHECK(static_cast<double>(lost) < 0.01 * static_cast<double>(names.size()));
     }
 }

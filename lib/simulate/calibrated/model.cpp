@@ -60,14 +60,15 @@ PointLimits point_limits(const BeamConfig& beam, const View& view, const Beams& 
         return static_cast<float>(max_by_width * radians(width_deg));
     };
     const float depth_m = max_depth_by_bin * static_cast<float>(view.bin_m());
+    const auto nearest_m = static_cast<float>(view.range_min_m - 2.0 * view.bin_m());
     if (const SineGrid* const sines = beams.sines())
         return {depth_m, max_sine_by_step * static_cast<float>(sines->step),
-                part(beam.elevation_width_deg)};
+                part(beam.elevation_width_deg), nearest_m};
     if (beam.aperture == Aperture::head)
-        return {depth_m, part(beam.width_deg), part(beam.elevation_width_deg)};
+        return {depth_m, part(beam.width_deg), part(beam.elevation_width_deg), nearest_m};
     if (beam.aperture == Aperture::port_starboard)
-        return {depth_m, part(beam.across_width_deg), part(beam.width_deg)};
-    return {depth_m, part(beam.width_deg), part(beam.width_deg)};
+        return {depth_m, part(beam.across_width_deg), part(beam.width_deg), nearest_m};
+    return {depth_m, part(beam.width_deg), part(beam.width_deg), nearest_m};
 }
 
 /// A resolution cell, or less where the pattern of a transducer bends within it.

@@ -35,7 +35,16 @@ struct PointLimits {
     float depth_m = 0.0F;         ///< in range; 0: any
     float sine = 0.0F;            ///< across the beams, y / range; 0: any
     float elevation_sine = 0.0F;  ///< in elevation, z / range; 0: any
+    float range_min_m = 0.0F;     ///< samples that are wholly nearer have no pieces
 };
+
+/// True if all of a sample at a range is nearer than another. Near surface hides what lies behind.
+inline bool is_wholly_nearer(const Sample& sample, float range_m, float than_m) {
+    if (!(range_m < than_m)) return false;
+    const float half_m =
+        sample.edge_u.norm() + (1.0F + std::fabs(sample.wedge)) * sample.edge_v.norm();
+    return range_m + half_m < than_m;
+}
 
 /// The number of pieces along a half edge with these extents.
 inline int patches_along(const EdgeExtents& half_edge, float range_m, const PointLimits& limits) {
@@ -86,7 +95,7 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
     for (std::uint32_t number = 0; number < samples.size(); ++number) {
         const Sample& sample = samples[number];
         const auto [range, direction] = arrival_of(sample.position);
-        if (!(range > 0.0F)) continue;
+        if (!(range > 0.0F) || is_wholly_nearer(sample, range, limits.range_min_m)) continue;
         const EdgeExtents u = extents_of(sample.edge_u, direction);
         const EdgeExtents v = extents_of(sample.edge_v, direction);
         const int by_u = patches_along(u, range, limits);

@@ -122,7 +122,9 @@ void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor
         const float ax = std::fabs(nx);
         const float ay = std::fabs(ny);
         const float az = std::fabs(nz);
-        const std::int32_t axis = az > std::max(ax, ay) ? 2 : ay > ax ? 1 : 0;
+        // Slopes and walls of 45 degrees are common: rounding must not choose their axis.
+        constexpr float bias = 0.95F;
+        const std::int32_t axis = az > bias * std::max(ax, ay) ? 2 : ay > bias * ax ? 1 : 0;
         out.axis[k] = axis;
         out.area_by_projected[k] = area[k] / (4.0F * along(axis, ax, ay, az));
 
@@ -215,6 +217,10 @@ void find_footprints(std::span<const Sample> samples, ViewShape shape, const Sca
     find_levels(surfaces, cells, out);
     find_parallelograms(surfaces, sonar.sensor, cells, out);
     find_rows(surfaces, out);
+    for (int k = 0; k < out.count; ++k) {
+        if (is_wholly_nearer(samples[k], surfaces.range[k], cells.range_min_m))
+            out.row_end[k] = out.row_begin[k];
+    }
 }
 
 }  // namespace sonarsim

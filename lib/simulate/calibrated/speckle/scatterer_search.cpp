@@ -248,10 +248,12 @@ class Search {
             number(first, p.base_first[of], Ints8::load(column_.data() + k));
             number(second, p.base_second[of], Ints8::load(row_.data() + k));
             // Cells are four edges high, with the scatterer near the middle: cuts of a curved
-            // surface into flat samples differ a little in height, which must not change it.
+            // surface into flat samples differ a little in height, which must not change it. No
+            // cell has its border at 0, where floors are.
+            constexpr float below = 0.382F;
             const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
-            const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
-            number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
+            const Floats8 fours = floor(fma(height, Floats8(0.375F) - size * 0.125F, below));
+            number(axis, p.base_axis[of], to_ints(fours) << 2);
             // The phase follows from the scatterer's own place. With the phase of another place in
             // the cell, speckle would decorrelate faster than the aperture allows.
             Floats8::load(along_first_.data() + k).store(block_.within[first].data() + k);

@@ -67,6 +67,7 @@ ScattererCells scatterer_cells(double resolution_m, double width_rad, double ran
     out.edge_per_root_range = static_cast<float>(per_root_range);
     out.max_depth_m = static_cast<float>(max_edge);
     out.width_rad = static_cast<float>(width_rad);
+    out.range_min_m = static_cast<float>(range_min_m - resolution_m);
     out.turns_per_m = 2.0 / wavelength_m;
     return out;
 }

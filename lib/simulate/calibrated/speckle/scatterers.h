@@ -22,6 +22,7 @@ struct ScattererCells {
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
     float max_depth_m = 0.0F;          ///< greatest size of a cell in range
     float width_rad = 0.0F;            ///< width of a resolution cell
+    float range_min_m = 0.0F;          ///< samples that are wholly nearer have no scatterers
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
 };
