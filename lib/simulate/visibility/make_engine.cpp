@@ -16,6 +16,10 @@ constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
 /// Factor on the density of rays over many triangles if a bin holds a mean.
 constexpr int density_over_many_triangles = 4;
 
+/// Factor on the rays along a column that multipath starts from. Three drawn scenes in tanks with
+/// objects: 1 to 2 % off on average at a goal of 3 %, 4 to 9 % with a factor of 1.
+constexpr int starts_along_column = 4;
+
 /// Strips, or rays in scenes of many triangles. Multipath starts where rays meet the surface.
 class StripsOrRays final : public VisibilityEngine {
   public:
@@ -36,7 +40,7 @@ class StripsOrRays final : public VisibilityEngine {
         return (dense ? dense_rays_ : rays_)->visible_surface(view, T_world_sensor);
     }
 
-    const VisibilityEngine& by_rays() const override { return *rays_; }
+    const VisibilityEngine& by_rays() const override { return *starts_; }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         std::unique_ptr<StripsOrRays> out(new StripsOrRays(scene(), caster().moved(T_world_body)));
@@ -46,7 +50,9 @@ class StripsOrRays final : public VisibilityEngine {
 
   private:
     StripsOrRays(const Scene& scene, const Caster& caster)
-        : VisibilityEngine(scene, caster), rays_(make_rays_engine(scene, caster)) {
+        : VisibilityEngine(scene, caster),
+          rays_(make_rays_engine(scene, caster)),
+          starts_(make_rays_engine(scene, caster, 1, starts_along_column)) {
         if (scene.triangles.size() > many_triangles)
             dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
     }
@@ -56,7 +62,7 @@ class StripsOrRays final : public VisibilityEngine {
         std::atomic<std::size_t> last_samples{0};  ///< in the last ping
     };
 
-    std::unique_ptr<VisibilityEngine> rays_, dense_rays_;
+    std::unique_ptr<VisibilityEngine> rays_, starts_, dense_rays_;
     std::shared_ptr<Strips> strips_;  ///< null: rays; shared by the engines at all times
 };
 

@@ -24,8 +24,8 @@ constexpr double sag_of_sight_lines_m = 0.01;
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, int density)
-        : VisibilityEngine(scene, std::move(caster)), density_(density) {}
+    RaysEngine(const Scene& scene, Caster caster, int density, int along)
+        : VisibilityEngine(scene, std::move(caster)), density_(density), along_(along) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
@@ -70,7 +70,8 @@ class RaysEngine final : public VisibilityEngine {
     }
 
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
-        return std::make_unique<RaysEngine>(scene(), caster().moved(T_world_body), density_);
+        return std::make_unique<RaysEngine>(scene(), caster().moved(T_world_body), density_,
+                                            along_);
     }
 
   private:
@@ -78,6 +79,7 @@ class RaysEngine final : public VisibilityEngine {
         view.relative_l1 /= density_;
         Sampling sampling = sampling_for(view);
         sampling.columns *= density_;
+        if (view.energies_add && view.shape == ViewShape::fan) sampling.rays *= along_;
         // The beam of a side-scan receives most from its middle, so a column must lie there.
         if (view.energies_add && view.shape == ViewShape::port_starboard)
             sampling.columns = columns_along_track * sampling.columns | 1;
@@ -95,7 +97,7 @@ class RaysEngine final : public VisibilityEngine {
         return {scene().sound_profile.get(), scene().origin.z(), sag_m};
     }
 
-    int density_;
+    int density_, along_;
 };
 
 }  // namespace
@@ -105,8 +107,8 @@ std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
 }
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   int density) {
-    return std::make_unique<RaysEngine>(scene, caster, density);
+                                                   int density, int along) {
+    return std::make_unique<RaysEngine>(scene, caster, density, along);
 }
 
 }  // namespace sonarsim
