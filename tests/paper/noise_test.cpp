@@ -175,12 +175,13 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
         for (const float across : {0.0F, 0.3F}) {
             Sample sample = patch_of({5, 0, 0}, {-1, 0, 0}, {along, 0, 0}, {0, across, 0});
             sample.area_m2 = 0.5F;
+            sample.height_m = along > 0.0F ? 4.0F : 5.0F;
             Echoes echoes;
             std::vector<std::uint32_t> ends;
             direct_echoes({&sample, 1}, {&material, 1}, 10.0F, {}, echoes, &ends);
             REQUIRE(echoes.size() == 1);
             CHECK(echoes.weight[0] == 0.5F);
-            CHECK(echoes.intensity[0] == 0.25F);
+            CHECK(echoes.intensity[0] == approx(0.25 * sample.height_m / 5.0));
             CHECK(echoes.range_m[0] - echoes.half_m[0] == approx(5.0 - along).epsilon(1e-6));
             CHECK(echoes.range_m[0] + echoes.half_m[0] ==
                   approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));

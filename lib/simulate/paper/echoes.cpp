@@ -169,11 +169,12 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
     return std::fma(s, u[axis][k], std::fma(t, v[axis][k], c[axis][k]));
 }
 
-/// Ends the extents of echoes at `last_m`: the pieces of a wedge are those of its parallelogram.
-void end_at(float last_m, float* range_m, float* half_m) {
+/// Cuts the extents of echoes at `first_m` and `last_m`: the pieces of a wedge are those of its
+/// parallelogram, and no point of a plane is nearer than its foot.
+void cut_at(float first_m, float last_m, float* range_m, float* half_m) {
     for (int k = 0; k < lanes; ++k) {
-        const float first = std::min(range_m[k] - half_m[k], last_m);
-        const float last = std::min(range_m[k] + half_m[k], last_m);
+        const float first = std::clamp(range_m[k] - half_m[k], first_m, last_m);
+        const float last = std::clamp(range_m[k] + half_m[k], first_m, last_m);
         range_m[k] = 0.5F * (first + last);
         half_m[k] = 0.5F * (last - first);
     }
@@ -189,6 +190,8 @@ void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std
     const float shift = f.shift_m[k];
     const float height = f.height_m[k];
     const float reflection = f.reflection[k];
+    const bool is_cut =
+        f.last_m[k] < no_limit || f.range_m[k] - f.depth_u_m[k] - f.depth_v_m[k] < height;
     for (int first = 0; first < count; first += lanes) {
         const std::size_t at = begin + first;
         std::array<float, lanes> s, t;
@@ -210,7 +213,7 @@ void write_pieces(const Footprints& f, std::size_t k, int count, bool cells, std
             intensity[lane] = reflection * std::min(height / r, 1.0F);
         }
         std::fill_n(to.half_m.data() + at, lanes, f.half_m[k]);
-        if (f.last_m[k] < no_limit) end_at(f.last_m[k], range_m, to.half_m.data() + at);
+        if (is_cut) cut_at(height, f.last_m[k], range_m, to.half_m.data() + at);
         std::fill_n(to.weight.data() + at, lanes, f.weight[k]);
         if (!cells) continue;
         std::uint32_t* const __restrict low = to.cell_low.data() + at;

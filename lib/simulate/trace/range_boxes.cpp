@@ -38,8 +38,9 @@ struct BoxArrays {
     const float per_bin = 1.0F / bins.bin_m;
     const float range_min_m = bins.min_m;
     const auto end = static_cast<float>(bins.count);
-    // In bins. An echo without depth needs a width, since its weight is divided by it.
-    constexpr float min_half = 1e-3F;
+    // In bins. An echo without depth needs a width, since its weight is divided by it. It lies
+    // behind its range, so that a wall at the border of two bins is in the second alone.
+    constexpr float min_depth = 2e-3F;
     const float* const __restrict range_m = echoes.range_m;
     const float* const __restrict half_m = echoes.half_m;
     const float* const __restrict weight = echoes.weight;
@@ -49,15 +50,16 @@ struct BoxArrays {
     int max_bin = 0;
     for (std::size_t k = 0; k < echoes.count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
-        const float half = std::max(half_m[k] * per_bin, min_half);
+        const float half = half_m[k] * per_bin;
+        const float depth = std::max(2.0F * half, min_depth);
         const float low = std::max(centre - half, 0.0F);
-        const float high = std::min(centre + half, end);
+        const float high = std::min(centre - half + depth, end);
         const bool inside = low < high;
         outside += inside ? 0 : 1;
         const float from = inside ? low : 0.0F;
         const float to = inside ? high : 0.0F;
         // An echo whose range is NaN is outside as well; its weight must not reach a bin.
-        const float density = inside ? weight[k] / (2.0F * half) : 0.0F;
+        const float density = inside ? weight[k] / depth : 0.0F;
         const float echo = inside ? density * intensity[k] : 0.0F;
         const float first = std::floor(from);
         const float last = std::min(std::floor(to), end - 1.0F);
