@@ -177,7 +177,7 @@ TEST_CASE("assemble: the octree refuses the calibrated model") {
                          InputError);
 }
 
-TEST_CASE("assemble: the instances of the bottom, for heights") {
+TEST_CASE("assemble: the instances of the bottom") {
     const MissionOnDisk disk;
     const auto is_bottom = [&](std::vector<std::string> overrides) {
         overrides.emplace_back(
@@ -185,8 +185,7 @@ TEST_CASE("assemble: the instances of the bottom, for heights") {
         return assemble(disk.load("{file: poses.csv}", overrides)).scene.is_bottom;
     };
     using Flags = std::vector<std::uint8_t>;
-    CHECK(is_bottom({}) == Flags{0, 0});
-    CHECK(is_bottom({"output.labels=[height]"}) == Flags{1, 0});
+    CHECK(is_bottom({}) == Flags{1, 0});
     CHECK(is_bottom({"output.labels=[height]", "scene.bottom=[wa*]"}) == Flags{1, 0});
 }
 

@@ -125,7 +125,7 @@ class Objects(Sandbox):
         found = self.json("out/sss/objects.json")
         self.assertEqual((found["picture"], found["width"], found["height"], found["pings"], found["pings_per_pixel"]),
                          ("waterfall.png", 92, 6, 6, 1))
-        left = np.load(self.out / "sss/instance.npy").copy()
+        left, shadows = (np.load(self.out / f"sss/{name}.npy").copy() for name in ("instance", "object_shadow"))
         for one in found["objects"]:
             mask = mask_of(one["mask"], 92, 6)
             self.assertEqual(set(left[mask]), {one["id"]})
@@ -136,6 +136,8 @@ class Objects(Sandbox):
             self.assertEqual((one["side"], one["bearing_deg"]), (side, -90 if side == "port" else 90))
             self.assert_mask(one["mask"], mask, one["box_px"], one["area_px"])
             self.assertEqual(one["pings"], one["box_px"]["y"])
+            rows = np.nonzero((shadows == one["id"])[:, :46] if side == "port" else (shadows == one["id"])[:, 46:])[0]
+            self.assertEqual(one.get("shadow_box_px", {}).get("y"), [rows.min(), rows.max() + 1] if rows.size else None)
             self.assertAlmostEqual(one["range_m"], np.abs(columns + 0.5 - 46).mean() * 4 / 46, delta=0.06)
         self.assertFalse(left.any())
         sounder = self.json("out/sounder/objects.json")

@@ -1,6 +1,6 @@
-#include "simulate/product/bottom.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
+#include "simulate/product/soundings.h"
 
 TEST_CASE("bottom: the leading edge, to the bin") {
     CHECK_FALSE(first_return({}));

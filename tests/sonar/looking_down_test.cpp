@@ -1,4 +1,4 @@
-#include "simulate/product/bottom.h"
+#include "simulate/product/soundings.h"
 #include "support/sonars.h"
 
 namespace {
@@ -39,7 +39,7 @@ TEST_CASE("echosounder, side-scan: a flat bottom echoes as R H / r over the view
             const int i = k / ping.beams;
             const double r = bin_centre(sonar, i);
             CAPTURE_ALL(H, k);
-            if (sonar.range_edges_m[i + 1] < H - 0.005 || sonar.range_edges_m[i] > end)
+            if (sonar.range_edges_m[i + 1] <= H - 1e-5 || sonar.range_edges_m[i] > end)
                 CHECK(ping.intensity[k] == 0.0F);
             if (r > H + 0.01 && r < end - 0.01)
                 CHECK(ping.intensity[k] == approx(R * H / r).epsilon(0.01));
@@ -57,8 +57,8 @@ TEST_CASE("side-scan: the first return is that of the nearest bottom in view") {
         const Pose vehicle{rotation_from_rpy(radians(20.0), 0.0, 0.0), {0.0, 0.0, 5.0}};
         const auto engine = engine_of(scene, EngineKind::strips);
         const TracedPing traced = trace(sonar, scene, *engine, vehicle, 0);
-        const PingView view{sonar, vehicle, 0, {}, traced, scene.is_bottom};
-        return measured(view, *engine).at("first_return_m").at(side).get<double>();
+        const auto found = measured({sonar, vehicle, 0, {}, traced, scene.is_bottom}, *engine);
+        return found.at("first_return_m").at(side).get<double>();
     };
     CHECK(first("starboard") == approx(5.0).epsilon(1e-3));
     CHECK(first("port") == approx(5.0 / std::cos(radians(20.0))).epsilon(1e-3));

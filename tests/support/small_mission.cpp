@@ -64,6 +64,7 @@ Assembly small_assembly(const Mission& mission, int poses) {
         assembly.sonars.push_back(make_sonar(sensor, mission.accuracy));
     }
     assembly.objects = group_objects(assembly.scene, {});
+    assembly.scene.is_bottom.assign(assembly.scene.instances.size(), 1);
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                             assembly.motions, assembly.sonars, *assembly.trees)
                                .full_scales;

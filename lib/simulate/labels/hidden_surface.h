@@ -59,7 +59,7 @@ struct SightLine {
     float share_u, share_v;
     std::uint32_t beam, last_beam;   ///< its part of the footprint covers them
     std::uint32_t last_node = 0;     ///< the last node of its way
-    bool behind_background = false;  ///< of the sample's
+    bool behind_background = false;  ///< background behind its sample was met
 };
 
 /// Tells which sight lines are kept: most have nothing to find.

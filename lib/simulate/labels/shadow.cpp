@@ -11,6 +11,10 @@ namespace sonarsim {
 
 namespace {
 
+// Surface without a sight line belongs to a shadow in these beams at most: edges of the view have
+// such bins, too.
+constexpr int max_beams_away = 2;
+
 /// Replaces each 0 by the nearest other value, in a tie by the one before. False: all are 0.
 bool fill_gaps(std::span<std::uint16_t> ids) {
     const auto count = static_cast<int>(ids.size());
@@ -94,7 +98,7 @@ std::vector<std::uint16_t>& ShadowFinder::owners(int j) {
 
 std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
     const auto beams = static_cast<int>(owners_.size());
-    for (int away = 0; away < beams; ++away) {
+    for (int away = 0; away <= std::min(max_beams_away, beams - 1); ++away) {
         for (int beam : {j - away, j + away}) {
             if (full_turn_) beam = (beam + beams) % beams;
             if (beam < 0 || beam >= beams) continue;

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 /// Finds the bins in shadow: they hold surface, and none of it is visible. A bin in shadow gets the
 /// object that hides most of its surface by solid angle. If no sight line ends in it, it gets the
-/// object of the nearest bin in which one does.
+/// object of the nearest bin in which one does, within two beams.
 class ShadowFinder {
   public:
     /// `pieces`: the hidden surface.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,11 @@ int beams_with_sounding(const Ping& ping);
 /// azimuth is that at reception. `T_world_vehicle` is the pose of transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
+
+/// The bin of the bottom's first return in a column of range bins from near to far; nothing when
+/// the column is dark. It is the leading edge: the first bin at which the running mean over three
+/// bins, which suppresses single bright speckles, reaches half of its maximum.
+std::optional<int> first_return(std::span<const float> column);
 
 /// A surface return detected in a beam: the run of bins [begin, end).
 struct DetectedReturn {

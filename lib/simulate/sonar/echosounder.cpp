@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "core/text.h"
-#include "simulate/product/bottom.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/picture.h"
+#include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

@@ -243,7 +243,7 @@ std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_w
     Intersection bottom{};
     engine.intersect(T_world_sensor, {&ray, 1}, {&bottom, 1});
     if (!std::isfinite(bottom.distance_m)) return std::nullopt;
-    return bottom.distance_m;
+    return bottom.distance_m + 0.0F;  // -0 becomes 0
 }
 
 nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine) {

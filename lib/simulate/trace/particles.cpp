@@ -39,9 +39,9 @@ void Particles::add(const TraceContext& context, const PingMotion& motion, std::
     std::vector<SightPoint> sights;
     for (std::uint32_t k = 0; k < all_.size(); ++k) {
         const Particle& particle = all_[k];
-        const Eigen::Vector3f place =
-            (to_sensor * (place_at(particle, time_s(pose)) - T_world_sensor.translation))
-                .cast<float>();
+        const Eigen::Vector3d at = place_at(particle, time_s(pose));
+        if (scene.water_surface && at.z() > scene.water_surface->height_m) continue;
+        const Eigen::Vector3f place = (to_sensor * (at - T_world_sensor.translation)).cast<float>();
         const float range = place.norm();
         if (!(range > 0.0F && range < static_cast<float>(view.range_max_m)) ||
             !field.contains(place))

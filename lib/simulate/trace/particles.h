@@ -31,8 +31,8 @@ class Particles final : public SampleSource {
     Particles(std::vector<Particle> all, std::vector<double> time_s)
         : all_(std::move(all)), time_s_(std::move(time_s)) {}
 
-    /// Adds the particles in view that no surface hides. One ray tests each. Their samples are
-    /// points: without edges, with the cross-section as their area, facing the sonar.
+    /// Adds the particles in view and in the water that no surface hides. One ray tests each. Their
+    /// samples are points: without edges, with the cross-section as their area, facing the sonar.
     void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
              Samples& samples) const override;
 

@@ -50,32 +50,18 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
 }
 
 void for_each_received(const TracedPing& traced, const std::function<void(const Sample&)>& use) {
-    if (traced.later_groups.empty()) {
-        for (const Sample& sample : traced.samples.items) {
-            if (kind_of(sample.kind).is_surface) use(sample);
-        }
-        return;
-    }
-    const Pose& first = traced.T_world_sensor;
-    const Eigen::Quaterniond to_first = first.rotation.conjugate();
+    const bool at_once = traced.group_of_beam.empty();
+    const auto use_surface = [&](const Sample& sample) {
+        if (kind_of(sample.kind).is_surface) use(sample);
+    };
     for (int number = 0; number <= std::ssize(traced.later_groups); ++number) {
-        const TracedPing& group = number == 0 ? traced : traced.later_groups[number - 1];
-        const Pose& own = group.T_world_sensor;
-        const Eigen::Matrix3f turn = (to_first * own.rotation).toRotationMatrix().cast<float>();
-        const Eigen::Vector3f shift =
-            (to_first * (own.translation - first.translation)).cast<float>();
-        const auto use_turned = [&](Sample sample) {
-            sample.position = turn * sample.position + shift;
-            sample.edge_u = turn * sample.edge_u;
-            sample.edge_v = turn * sample.edge_v;
-            use(sample);
-        };
-        for (int beam = 0; beam < std::ssize(traced.group_of_beam); ++beam) {
-            if (traced.group_of_beam[static_cast<std::size_t>(beam)] == number)
-                std::ranges::for_each(group.samples.beam(beam), use_turned);
+        const Samples& samples = (number == 0 ? traced : traced.later_groups[number - 1]).samples;
+        for (int beam = 0; beam + 1 < std::ssize(samples.beam_begin); ++beam) {
+            if (at_once || traced.group_of_beam[static_cast<std::size_t>(beam)] == number)
+                std::ranges::for_each(samples.beam(beam), use_surface);
         }
-        for (const Sample& sample : group.samples.in_no_beam()) {
-            if (sample.kind == SampleKind::behind_wall) use_turned(sample);
+        for (const Sample& sample : samples.in_no_beam()) {
+            if (at_once || sample.kind == SampleKind::behind_wall) use_surface(sample);
         }
     }
 }

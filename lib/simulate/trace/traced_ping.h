@@ -69,7 +69,7 @@ auto by_groups(const TracedPing& traced, Make make, TakeBeam take_beam, TakeAll 
     return out;
 }
 
-/// Calls use(sample) for the surface that a ping receives, in the sensor's frame at transmission.
+/// Calls use(sample) for the surface that a ping receives, each where its group receives it.
 void for_each_received(const TracedPing& traced, const std::function<void(const Sample&)>& use);
 
 /// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:

@@ -23,6 +23,21 @@ Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
     return json;
 }
 
+/// The part of the seen footprints within a box around the whole object. Footprints are flat
+/// parallelograms, which overlap the edges of surface.
+Eigen::AlignedBox3f within(const Eigen::AlignedBox3f& seen, const Eigen::AlignedBox3d& box,
+                           const Pose& T_world_frame, const Pose& T_world_sensor) {
+    if (box.isEmpty()) return seen;
+    constexpr double rounding_m = 1e-3;
+    const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
+    Eigen::Isometry3d T(to_sensor * T_world_frame.rotation);
+    T.pretranslate(to_sensor * (T_world_frame.translation - T_world_sensor.translation));
+    Eigen::AlignedBox3d whole = box.transformed(T);
+    whole.min().array() -= rounding_m;
+    whole.max().array() += rounding_m;
+    return seen.intersection(whole.cast<float>());
+}
+
 /// The mask of an object in a list sorted by id; null for none.
 const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id) {
     const auto found = std::ranges::lower_bound(masks, id, {}, &ObjectMask::id);
@@ -78,14 +93,20 @@ Json visible_json(const WriterContext& context, const ObjectBoxes& boxes,
         {"level_around", number_or_null(visible.surrounding_level)},
         {"range_m", visible.range_m},
         {"azimuth_rad", number_or_null(visible.azimuth_rad)}};
-    json["seen_box_sensor_m"] = describe_box(visible.box_sensor_m);
     const Pose& T_world_sensor = finished.traced.T_world_sensor;
+    const bool at_true_places =
+        finished.traced.motion.is_still() && !context.assembly.scene.sound_profile;
+    const auto add_boxes = [&](const Eigen::AlignedBox3d& box, const Pose& T_world_frame) {
+        const Eigen::AlignedBox3f& seen = visible.box_sensor_m;
+        json["seen_box_sensor_m"] =
+            describe_box(at_true_places ? within(seen, box, T_world_frame, T_world_sensor) : seen);
+        json["box_sensor"] = placed_box_json(box, T_world_frame, T_world_sensor);
+    };
     if (const std::optional<MovingObject>& moving = boxes.moving[visible.id - 1]) {
-        const Pose& T_world_object = T_world_body[moving->body];
-        json["T_world_object"] = describe_pose(T_world_object);
-        json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
+        json["T_world_object"] = describe_pose(T_world_body[moving->body]);
+        add_boxes(moving->box, T_world_body[moving->body]);
     } else {
-        json["box_sensor"] = placed_box_json(boxes.still[visible.id - 1], {}, T_world_sensor);
+        add_boxes(boxes.still[visible.id - 1], {});
     }
     if (!finished.labels->bins.visible_share.empty())
         json["visible_share"] = finished.labels->bins.visible_share[visible.id - 1];

@@ -28,6 +28,11 @@ class Strip {
           each_(pings_per_row(pings_)),
           rows_(static_cast<std::size_t>(picture_rows(pings_))),
           range_m_(source_.range_m) {
+        const auto every = static_cast<std::size_t>(context.sonar().config.every);
+        for (std::size_t ping = 0; ping < pings_; ++ping) {
+            const Pose& vehicle = context.assembly.trajectory[ping * every].T_world_vehicle;
+            bows_.emplace_back(vehicle.rotation * Eigen::Vector3d::UnitX());
+        }
         if (!shape_.two_sides) return;
         const double column_m = context.sonar().settings.view.bin_m();
         const double offset_m = column_offset_m(context.sonar().config);
@@ -70,8 +75,13 @@ class Strip {
     struct Present {
         std::uint16_t pass = 0;
         std::size_t last = 0;  ///< last ping that saw the object
-        BinBox shadow;         ///< shadow since then, which counts if the pass goes on
+        BinBox shadow;         ///< shadow before a pass, which counts if one begins
     };
+
+    /// True if one pass may hold both pings: few lie between them, and the vehicle has not turned.
+    bool joins(std::size_t ping, std::size_t later) const {
+        return later - ping <= max_missed && bows_[ping].dot(bows_[later]) > 0.0;
+    }
 
     /// Numbers the passes from 1 on. `pass_of_pixel_` has the order of object_masks(). Where a row
     /// stands for several pings, it holds the pass of the first ping that shows an object.
@@ -91,13 +101,20 @@ class Strip {
             }
             for (int bin = 0; bin < bins_; ++bin) {
                 const std::uint16_t id = values.shadow[bin];
+                if (id == 0) continue;
                 Present& one = present[is_port(bin) ? 1 : 0][id];
-                if (id == 0 || one.pass == 0) continue;
-                if (source_.has_shadow[id] != 0 && one.last == ping) draw(ping, bin, one.pass);
-                BinBox& box = one.last == ping ? passes_[one.pass].shadow : one.shadow;
+                const bool in_pass = one.pass != 0 && joins(one.last, ping);
+                if (source_.has_shadow[id] != 0 && in_pass && one.last == ping)
+                    draw(ping, bin, one.pass);
+                if (!in_pass && !goes_on(one.shadow, ping)) one.shadow = {};
+                BinBox& box = in_pass ? passes_[one.pass].shadow : one.shadow;
                 box.extend(static_cast<int>(ping), bin);
             }
         }
+    }
+
+    bool goes_on(const BinBox& shadow, std::size_t ping) const {
+        return !shadow.is_empty() && joins(static_cast<std::size_t>(shadow.last_line), ping);
     }
 
     void draw(std::size_t ping, int bin, std::uint16_t pass) {
@@ -108,17 +125,15 @@ class Strip {
     }
 
     void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
-        const bool is_new = one.pass == 0 || ping - one.last > max_missed;
+        const bool is_new = one.pass == 0 || !joins(one.last, ping);
         if (is_new && passes_.size() < max_passes) {
-            one = {static_cast<std::uint16_t>(passes_.size()), ping, {}};
-            passes_.emplace_back().id = id;
+            one.pass = static_cast<std::uint16_t>(passes_.size());
+            SeenObject& pass = passes_.emplace_back();
+            pass.id = id;
+            if (goes_on(one.shadow, ping)) pass.shadow = one.shadow;
         }
         SeenObject& pass = passes_[one.pass];
-        if (!one.shadow.is_empty()) {
-            pass.shadow.extend(one.shadow.first_line, one.shadow.first_bin);
-            pass.shadow.extend(one.shadow.last_line, one.shadow.last_bin);
-            one.shadow = {};
-        }
+        one.shadow = {};
         one.last = ping;
         pass.add(static_cast<int>(ping), bin, range_m_[bin], share);
     }
@@ -157,8 +172,7 @@ class Strip {
         box.last_line = box.first_line + pings - 1;
         const bool port = is_port(box.first_bin);
         const int middle = shape_.two_sides ? bins_ / 2 : 0;
-        const BinBox side{box.first_line, box.last_line, port ? 0 : middle,
-                          port ? middle - 1 : bins_ - 1};
+        const BinBox side{0, values.lines - 1, port ? 0 : middle, port ? middle - 1 : bins_ - 1};
         source_.add_contrasts(values, box, side, pass);
     }
 
@@ -170,6 +184,7 @@ class Strip {
     std::size_t each_;                    ///< pings per row
     std::size_t rows_;                    ///< rows or columns of pings
     std::vector<double> range_m_;         ///< range of each value of a ping
+    std::vector<Eigen::Vector3d> bows_;   ///< the vehicle's, by ping, world
     std::vector<SeenObject> passes_{{}};  ///< indexed by number
     Ids pass_of_pixel_;
 };
@@ -201,6 +216,22 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
     return visible;
 }
 
+/// The first ping of a sweep that shows an object, and the one after the last.
+std::pair<std::size_t, std::size_t> pings_of(std::uint32_t id, const RecordValues& drawn,
+                                             const SonarConfig& config, std::size_t begin,
+                                             std::size_t end) {
+    const auto shows = [&](std::size_t ping) {
+        const auto line = static_cast<std::size_t>(scan_step(config, ping));
+        const auto own = std::span(drawn.object).subspan(line * drawn.bins, drawn.bins);
+        return std::ranges::count(own, id) > 0;
+    };
+    while (begin < end && !shows(begin))
+        ++begin;
+    while (begin < end && !shows(end - 1))
+        --end;
+    return {begin, end};
+}
+
 /// Writes a file for every sweep.
 void write_sweeps(const WriterContext& context, const std::filesystem::path& folder) {
     const ObjectRecords source(context, folder);
@@ -223,7 +254,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         for (const ObjectMask& mask : masks(mask_ids)) {
             SeenObject visible =
                 visible_in_sweep(source, drawn, static_cast<std::uint16_t>(mask.id), whole);
-            visible.pings = {begin, end};
+            visible.pings = pings_of(mask.id, drawn, config, begin, end);
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
             if (shadow != shadows.end())
                 visible.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
