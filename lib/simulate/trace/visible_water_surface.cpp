@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/trace/bounce_path.h"
+#include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {
 
