@@ -60,7 +60,7 @@ TEST_CASE("side-scan: stones in a narrow beam are visible") {
     CHECK(error < 0.04);
 }
 
-TEST_CASE("multipath of auto and of strips is that of rays") {
+TEST_CASE("multipath of auto is that of strips, and of the paper's model that of rays") {
     const Scene scene = tank();
     SonarConfig config = small_imaging();
     config.multipath.method = MultipathMethod::exact;

@@ -48,7 +48,7 @@ struct PlacedFile {
     /// frame of a body that moves.
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     bool moves = false;
-    /// Patterns of the nodes that are the bottom of heights, empty for all; none: no node is.
+    /// Patterns of the nodes that are the bottom, empty for all; none: no node is.
     std::optional<std::vector<std::string>> bottom = {};
     Location place = {};  ///< in the mission, for messages
 };

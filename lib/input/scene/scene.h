@@ -106,7 +106,7 @@ struct Scene {
     std::vector<Material> materials;            ///< used by its surfaces and maps
     std::vector<std::string> instances;         ///< node names
     std::vector<std::string> instance_classes;  ///< extras.sonar.class of each instance; "": none
-    std::vector<std::uint8_t> is_bottom;  ///< 1: all of this instance is the bottom of heights
+    std::vector<std::uint8_t> is_bottom;  ///< 1: all of this instance is the bottom
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
     Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
     /// Largest rounding error of a vertex, m. Floats far from the origin of their own file or node

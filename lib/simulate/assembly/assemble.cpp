@@ -68,7 +68,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
             const Pose at = sensor_pose(*SonarAtPose(mission, sonar, pose),
                                         assembly.trajectory[i].T_world_vehicle, pose);
             ++pings;
-            above += at.translation.z() > config.height_m;
+            above += at.translation.z() > config.height_m + just_below_m;
         }
     }
     const std::string name = "scene.water_surface ";

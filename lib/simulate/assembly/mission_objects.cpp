@@ -89,8 +89,11 @@ std::vector<std::pair<std::string, std::string>> drawn_instances(const SceneConf
     }
     for (const ParticlesConfig& particles : scene.particles) {
         const std::string& own = particles.class_or_name();
-        add_from(1, std::min(particles.count[1], max_single_particles - 1), particles.name, own);
-        drawn.push_back({particles.name, own});
+        if (particles.count[0] < max_single_particles) {
+            const double max_count = std::min(particles.count[1], max_single_particles - 1);
+            add_from(1, max_count, particles.name, own);
+        }
+        if (particles.count[1] >= max_single_particles) drawn.push_back({particles.name, own});
     }
     return drawn;
 }

@@ -42,6 +42,12 @@ class LazyBottom {
     /// True if there is a bottom that does not move.
     bool exists() const { return is_of_files() || stands_still(scene_.objects.front()); }
 
+    /// Patterns of its nodes; empty: all.
+    std::vector<std::string> nodes() const {
+        const bool is_bed = is_ground() && ground_->seabed && scene_.bottom.empty();
+        return is_bed ? std::vector<std::string>{seabed_instance} : scene_.bottom;
+    }
+
     /// Notes in its file that its nodes are the bottom. `files` are those of SceneParts.
     void mark(std::vector<PlacedFile>& files) const {
         files[is_ground() && !scene_.file.empty() ? 1 : 0].bottom = nodes();
@@ -82,12 +88,6 @@ class LazyBottom {
     bool is_of_files() const { return !scene_.file.empty() || ground_; }
 
     bool is_ground() const { return ground_ && (scene_.bottom.empty() || scene_.file.empty()); }
-
-    /// Patterns of its nodes; empty: all.
-    std::vector<std::string> nodes() const {
-        const bool is_bed = is_ground() && ground_->seabed && scene_.bottom.empty();
-        return is_bed ? std::vector<std::string>{seabed_instance} : scene_.bottom;
-    }
 
     PlacedFile file() const {
         if (is_ground()) return *ground_;
@@ -262,7 +262,14 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();
     if (bottom.exists() && !places_only) bottom.mark(parts.files);
-    if (needs_ground && bottom.exists()) parts.bottom = bottom.share();
+    if (!needs_ground || !bottom.exists()) return parts;
+    parts.bottom = bottom.share();
+    for (const PlacedFile& file : parts.files) {
+        if (!file.name.empty() && contains(bottom.nodes(), file.name)) {
+            refuse(file.place, "scene.bottom names a node '{}', too; give the object another name",
+                   printable(file.name));
+        }
+    }
     return parts;
 }
 

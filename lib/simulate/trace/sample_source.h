@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// A source of samples that no engine finds, as what the water holds.
+/// A source of samples that no engine finds, as what the water holds. Each has a kind of its own.
 class SampleSource {
   public:
     virtual ~SampleSource() = default;

@@ -33,13 +33,15 @@ struct WaterMirror {
     }
 };
 
+/// A sonar in a hull is at the surface to within rounding, and counts as this far below it.
+inline constexpr double just_below_m = 1e-6;
+
 /// The water's surface in the sensor's frame; nothing for a sonar above it.
 inline std::optional<WaterMirror> mirror_of(const std::optional<WaterSurface>& surface,
                                             const Pose& T_world_sensor) {
     if (!surface) return std::nullopt;
-    constexpr double just_below_m = 1e-6;  // as a sonar at the surface is, in a hull
     const double height_m = surface->height_m - T_world_sensor.translation.z();
-    if (!(height_m >= 0.0)) return std::nullopt;
+    if (!(height_m >= -just_below_m)) return std::nullopt;
     const Eigen::Vector3f up =
         (T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>();
     const auto height = static_cast<float>(std::max(height_m, just_below_m));

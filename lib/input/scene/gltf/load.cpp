@@ -72,7 +72,7 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     scene.bounds_max = scene.origin + box.max();
 }
 
-/// True if all of the mesh's instance is the bottom of heights.
+/// True if all of the mesh's instance is the bottom.
 bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
     if (!file.bottom) return false;
     return file.bottom->empty() || (file.name.empty() && fits_any(*file.bottom, mesh.node));
@@ -88,13 +88,6 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         if (file.name.empty() || names.taken.insert(file.name).second) continue;
         refuse(file.place, "there is an object '{}' already; give each a name of its own",
                printable(file.name));
-    }
-    for (const PlacedFile& file : files) {
-        if (!file.name.empty() || !file.bottom) continue;
-        const auto same = std::ranges::find_first_of(files, *file.bottom, {}, &PlacedFile::name);
-        if (same == files.end()) continue;
-        refuse(same->place, "scene.bottom names a node '{}', too; give the object another name",
-               printable(same->name));
     }
     // The rules of the mission know the ground by the names of its nodes, so they come first.
     std::vector<OpenFile> open(files.size());

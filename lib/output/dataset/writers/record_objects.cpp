@@ -172,7 +172,9 @@ class Strip {
         box.last_line = box.first_line + pings - 1;
         const bool port = is_port(box.first_bin);
         const int middle = shape_.two_sides ? bins_ / 2 : 0;
-        const BinBox side{0, values.lines - 1, port ? 0 : middle, port ? middle - 1 : bins_ - 1};
+        const auto line = [&](int k) { return std::clamp(k - first, 0, values.lines - 1); };
+        const BinBox side{line(pass.shadow.first_line), line(pass.shadow.last_line),
+                          port ? 0 : middle, port ? middle - 1 : bins_ - 1};
         source_.add_contrasts(values, box, side, pass);
     }
 

@@ -38,7 +38,7 @@ struct PointLimits {
     float range_min_m = 0.0F;     ///< samples that are wholly nearer have no pieces
 };
 
-/// True if all of a sample at a range is nearer than another. Near surface hides what lies behind.
+/// True if all of a sample at a range is nearer than another. Before the first bin it has no echo.
 inline bool is_wholly_nearer(const Sample& sample, float range_m, float than_m) {
     if (!(range_m < than_m)) return false;
     const float half_m =

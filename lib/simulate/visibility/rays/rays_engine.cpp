@@ -89,7 +89,7 @@ class RaysEngine final : public VisibilityEngine {
     /// The number of beams that are cast together: all, or if the rays are dense, as many as
     /// bounded memory allows.
     int beams_together(const View& view, const Sampling& sampling) const {
-        if (density_ == 1) return std::max(view.beams, 1);
+        if (density_ == 1 && along_ == 1) return std::max(view.beams, 1);
         return std::max(max_rays_together / (sampling.columns * sampling.rays), 1);
     }
 
