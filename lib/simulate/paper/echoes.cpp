@@ -173,8 +173,9 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
 /// parallelogram, and no point of a plane is nearer than its foot.
 void cut_at(float first_m, float last_m, float* range_m, float* half_m) {
     for (int k = 0; k < lanes; ++k) {
-        const float first = std::clamp(range_m[k] - half_m[k], first_m, last_m);
-        const float last = std::clamp(range_m[k] + half_m[k], first_m, last_m);
+        // No std::clamp: rounding may put the foot behind the last corner.
+        const float first = std::min(std::max(range_m[k] - half_m[k], first_m), last_m);
+        const float last = std::min(std::max(range_m[k] + half_m[k], first_m), last_m);
         range_m[k] = 0.5F * (first + last);
         half_m[k] = 0.5F * (last - first);
     }

@@ -28,11 +28,9 @@ Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
 Eigen::AlignedBox3f within(const Eigen::AlignedBox3f& seen, const Eigen::AlignedBox3d& box,
                            const Pose& T_world_frame, const Pose& T_world_sensor) {
     if (box.isEmpty()) return seen;
-    constexpr double rounding_m = 1e-3;
-    const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
-    Eigen::Isometry3d T(to_sensor * T_world_frame.rotation);
-    T.pretranslate(to_sensor * (T_world_frame.translation - T_world_sensor.translation));
-    Eigen::AlignedBox3d whole = box.transformed(T);
+    constexpr double rounding_m = 1e-3;  // floats, 10 km from the scene's centre
+    const Eigen::Affine3d to_sensor = affine(T_world_sensor).inverse(Eigen::Isometry);
+    Eigen::AlignedBox3d whole = box.transformed(to_sensor * affine(T_world_frame));
     whole.min().array() -= rounding_m;
     whole.max().array() += rounding_m;
     return seen.intersection(whole.cast<float>());
