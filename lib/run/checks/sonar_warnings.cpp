@@ -38,10 +38,14 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
 }
 
 /// Warns of images that are too bright or too dark for the scale of the pictures. With `auto`
-/// glints are white on purpose, and a scale that was found from pings is never too dark.
+/// glints are white on purpose, and a scale that was found from pings is never too dark. Fans that
+/// show raw/ do not depend on it.
 void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
-    if (output.full_scale == 0.0 && sonar.settings.model->info.white == 0.0) return;
+    const EchoModelInfo& info = sonar.settings.model->info;
+    if (output.full_scale == 0.0 && info.white == 0.0) return;
+    const bool shows_raw = info.raw_bits > 0 && sonar.settings.view.shape == ViewShape::fan;
+    if (shows_raw && !output.image) return;
     const std::string about = about_sensor(sonar.config.name);
     const double greys = 255.0 * std::sqrt(brightest / full_scale);
     if (white_share > many_white && output.full_scale > 0.0) {

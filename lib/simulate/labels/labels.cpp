@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "simulate/labels/coverage.h"
 #include "simulate/labels/shadow.h"
 #include "simulate/labels/top_two.h"
-#include "simulate/visibility/coverage.h"
 
 namespace sonarsim {
 

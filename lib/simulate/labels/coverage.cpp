@@ -1,4 +1,4 @@
-#include "simulate/visibility/coverage.h"
+#include "simulate/labels/coverage.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
