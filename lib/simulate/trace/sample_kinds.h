@@ -55,6 +55,7 @@ class SamplesByKind {
         const std::span<const Sample> visible{samples.begin(), end};
         kinds_[0] = visible;
         if (!joined && std::ranges::any_of(visible, is_target)) {
+            surface_.reserve(visible.size());
             std::ranges::partition_copy(visible, std::back_inserter(targets_),
                                         std::back_inserter(surface_), is_target);
             kinds_[0] = surface_;
