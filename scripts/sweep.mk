@@ -47,6 +47,7 @@ $(if $(filter 1,$(words $(OUT))),,$(error OUT must be one folder without blanks 
 
 axes := $(filter $(given),$(keys)) $(dotted)
 $(if $(strip $(axes)),,$(error give at least one of $(keys), as in add_sigma="0 0.1", or a key with dots))
+$(foreach a,$(axes),$(if $(strip $($(a))),,$(error $(a): has no value)))
 $(if $(filter $(axes),$(noise_keys)),$(if $(SENSOR),,$(error give SENSOR=, the name of a sensor of $(MISSION))))
 
 # points: the cross product of the axes, each point spelled a=1!b=2. The sort also drops doubles.

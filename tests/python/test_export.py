@@ -306,12 +306,12 @@ class Export(tool.ToolTest):
         widths = [np.ptp(pixels @ (np.cos(angles + more), np.sin(angles + more)), axis=0) for more in (0, np.pi / 2)]
         self.assertLess(area, np.prod(widths, axis=0).min() + 0.05)
         self.assertLess(area, 0.6 * np.prod(box_of(mask)[2:]))
-        self.refused("--oriented takes --format yolo", "--format", "coco", "--oriented")
+        self.refused("--format coco takes no --oriented", "--format", "coco", "--oriented")
         with edited(path) as listed:
             listed["objects"][1]["fan"] = {"mask": counts_of(mask & (columns >= 15) | (rows + columns < 3))}    # at the border
-        numbers = [float(number) for path in self.export(*oriented).rglob("fls-*.txt")
-                   for line in path.read_text().splitlines() for number in line.split()[1:]]
-        self.assertTrue(all(0 <= number <= 1 for number in numbers))
+        for line in (self.export(*oriented) / "labels/train/fls-000002.txt").read_text().splitlines()[:1]:
+            x, y = np.array(line.split()[1:], float).reshape(4, 2).T * ((WIDTH,), (HEIGHT,))
+            self.assertEqual((x.min(), x[0], x[1], y[0], y[2]), (0, x[3], x[2], y[1], y[3]))    # upright, in the picture
 
     def test_hugging_face(self):
         """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
@@ -438,8 +438,9 @@ class Export(tool.ToolTest):
                             ((*coco, "--split", "train=0.5"), "the shares sum to 0.5"),
                             ((*coco, "--tile", "64x8"), "'64x8' must be N or WIDTHxHEIGHT, of 16 to 65536"),
                             ((*coco, "--gap", "5"), "--gap and --rounds take --split"),
-                            ((*coco, "--overlap", "4"), "--overlap takes --tile"),
-                            (("--format", "masks", "--polygons"), "--polygons takes"),
+                            ((*coco, "--overlap", "4"), "--overlap and --least-share take --tile"),
+                            ((*coco, "--mesh", "x.glb"), "--format coco takes no --mesh"),
+                            (("--format", "masks", "--polygons"), "takes no --polygons"),
                             (("--format", "yolo", "--polygons", "--box", "both"), "the outlines of yolo are the object's"),
                             (("--format", "crops", "--sensor", "fls", "--pixel-m", "50"), "times as large as"),
                             (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):

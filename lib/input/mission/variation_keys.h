@@ -102,6 +102,9 @@ void describe(auto& v, VaryConfig& c) {
     v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
               "the standard deviation must not be negative");
     v.require(!c.within || c.normal, {"within"}, "'within' needs 'normal'");
+    v.require(!c.whole || ((*c.whole)[0] == std::floor((*c.whole)[0]) &&
+                           (*c.whole)[1] == std::floor((*c.whole)[1])),
+              {"whole"}, "'whole' takes whole numbers");
     v.require(c.per != VaryPer::ping || !c.normal || c.within, {"normal", "per"},
               "a normal draw for every ping needs 'within', the limits of the draw");
 }

@@ -9,7 +9,7 @@ Json describe_drawn(const DrawnValues& drawn) {
     for (const auto& [key, value] : drawn) {
         const Json parsed = Json::parse(value, nullptr, false);
         const auto number = parse_number(value);  // .5 is no JSON
-        json[key] = parsed.is_primitive() ? parsed : number ? Json(*number) : Json(value);
+        json[key] = !parsed.is_discarded() ? parsed : number ? Json(*number) : Json(value);
     }
     return json;
 }

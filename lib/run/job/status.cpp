@@ -44,14 +44,19 @@ JobStatus read_status(const std::vector<fs::path>& folders) {
     status.mission = json->value("mission", "");
     for (const fs::path& folder : folders)
         require_same_variants(folder, *json, folders[0]);
+    std::uint64_t found = 0;
     for (const fs::path& name : folders_of_variants("", *json)) {
         ++status.variants;
         std::vector<fs::path> begun;
         for (const fs::path& folder : folders) {
             if (fs::exists(folder / name / description_name)) begun.push_back(folder / name);
         }
-        if (!begun.empty()) add_dataset(begun, status);
+        if (begun.empty()) continue;
+        add_dataset(begun, status);
+        ++found;
     }
+    // Variants that have not begun count as the mean of the others.
+    if (found > 0) status.all_pings = status.all_pings * status.variants / found;
     status.running = status.running || std::ranges::any_of(folders, is_written);
     return status;
 }

@@ -20,8 +20,12 @@ from .source import Source, named_datasets, require_known
 from .statistics import Statistics
 
 BATCH = 512     # pictures whose pieces are in memory at a time
-# Formats of pings, which need no objects: the writer of each, and its options beside --sensor.
-OF_PINGS = {"points": (clouds.write, {"whole"}), "holoocean": (holoocean.write, {"clean", "mesh"}), "mcap": (robot.write, set())}
+# Formats of pings, which need no objects, and the writer of each.
+OF_PINGS = {"points": clouds.write, "holoocean": holoocean.write, "mcap": robot.write}
+# The formats that take an option, if it is not those of pictures.
+FORMATS_OF = dict.fromkeys(("format", "folders", "dest", "sensor"), [*formats.KINDS, *OF_PINGS]) | {
+    "whole": ["points"], "clean": ["holoocean"], "mesh": ["holoocean"], "licence": ["hf"], "crop": ["crops"],
+    "negatives": ["crops"], "faint": ["coco", "masks"], "polygons": ["coco", "yolo"], "oriented": ["yolo"]}
 
 
 class Parser(argparse.ArgumentParser):
@@ -47,7 +51,7 @@ def parse(arguments):
     parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes what trainers and robots read.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
-    add("--format", required=True, choices=[*formats.KINDS, *OF_PINGS], help="the layout")
+    add("--format", required=True, choices=FORMATS_OF["format"], help="the layout")
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--oriented", action="store_true", help="of yolo: the least rectangle around the mask instead of the box")
@@ -85,18 +89,15 @@ def parse(arguments):
             not 1e-4 <= options.pixel_m <= 100 or options.tile):
         parser.error("--format crops needs --pixel-m, the side of a pixel from 0.0001 to 100 m, and no --tile; "
                      "other formats take no --pixel-m")
-    if options.format in OF_PINGS:
-        allowed = {"format", "folders", "dest", "sensor", *OF_PINGS[options.format][1]}
-        for key, value in vars(options).items():
-            if key not in allowed and value != parser.get_default(key):
-                parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
+    for key, value in vars(options).items():
+        if value != parser.get_default(key) and options.format not in FORMATS_OF.get(key, formats.KINDS):
+            parser.error(f"--format {options.format} takes no --{key.replace('_', '-')}")
     outlines = options.polygons or options.oriented
     for is_wrong, text in (
-            (options.oriented and (options.format != "yolo" or options.polygons), "--oriented takes --format yolo and no --polygons"),
-            (options.polygons and options.format not in ("coco", "yolo"), "--polygons takes --format coco or yolo"),
+            (options.oriented and options.polygons, "--oriented takes no --polygons"),
             (outlines and options.format == "yolo" and options.box != "object", "--box: the outlines of yolo are the object's"),
             (not options.split and (options.gap is not None or options.rounds != 1), "--gap and --rounds take --split"),
-            (options.overlap and not options.tile, "--overlap takes --tile"),
+            ((options.overlap or options.least_share != 0.2) and not options.tile, "--overlap and --least-share take --tile"),
             (options.tile and options.overlap >= min(options.tile), "--overlap must be less than the sides of a tile")):
         if is_wrong:
             parser.error(text)
@@ -131,7 +132,7 @@ def export_pings(options):
             if not sensors:
                 raise DataError(f"{dataset.folder}: has no ping of an imaging or profiling sonar to export")
             (folder / name).mkdir(exist_ok=True)
-            written = OF_PINGS[options.format][0](folder / name, dataset, sensors, options)
+            written = OF_PINGS[options.format](folder / name, dataset, sensors, options)
             lines += [f"{name}{name and ': '}{line}" for line in written]
     print("\n".join(lines))
 
@@ -140,16 +141,14 @@ def export(options):
     if options.format in OF_PINGS:
         return export_pings(options)
     options.split = split.parse(options.split) if options.split else None
-    if len({os.path.realpath(folder) for folder in options.folders}) < len(options.folders):
-        raise ValueError("a dataset is given twice")
     source = Source(options.folders, options)
     described = [dataset.description for dataset in source.datasets]
     seeds = {one["seed"] for one in described}   # each variant has its own
     info = {"description": described[0]["mission"], "version": described[0]["program_version"],
             "seed": seeds.pop() if len(seeds) == 1 else None}
     statistics = Statistics(source.classes)
-    if options.format == "masks" and len(source.classes) > 255:
-        raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
+    if options.format == "masks" and (len(source.classes) > 255 or "background" in source.classes):
+        raise ValueError("--format masks: holds at most 255 classes, none of them 'background'; leave some out (--without)")
     with formats.destination(options.dest, options.folders) as folder:
         layout = formats.KINDS[options.format](folder, source.classes, info, options)
         for pieces, left_out in prepare_all(source.pictures, source.numbers, options):
@@ -160,18 +159,21 @@ def export(options):
                 statistics.add(piece)
         for part in options.split or ["train"]:
             if part not in statistics.parts:
-                raise ValueError(no_pictures(part, max(source.pictures, key=lambda one: len(set(one.parts))), options))
+                raise ValueError(no_pictures(part, source.pictures, options))
         layout.finish()
         formats.write_json(folder / "statistics.json", statistics.as_json())
     return print(f"{options.dest}: {options.format}\n{statistics.text()}")
 
 
-def no_pictures(part, picture, options):
+def no_pictures(part, pictures, options):
     """Why a part of the split gets none, with the tile, if there is one, that gives each part some."""
+    picture = max(pictures, key=lambda one: len(set(one.parts)))
     runs = [(shown, len(list(run))) for shown, run in itertools.groupby(picture.parts)]
     along = min(max((length for shown, length in runs if shown == one), default=0) for one in options.split or [part])
     sides = (picture.width, along // 2) if picture.rows_are_pings else (along // 2, picture.height)
     options.tile = [max(16, side) for side in sides]
+    if not any(shown == part for one in pictures for shown in one.parts):
+        return f"--split: no variant is left for {part!r}; give it a larger share, render more variants, or leave it out"
     text = f"--split: no picture is left for {part!r}: {picture.path} "
     if picture.kind == "strip" and options.overlap < min(options.tile) and set(options.split or ()) <= {
             part_of(picture, frame) for frame in frames_of(picture, options)}:

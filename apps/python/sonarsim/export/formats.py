@@ -127,8 +127,10 @@ class Yolo(Format):
         if self.options.polygons:
             values = runs.joined(one["outlines"])
         elif self.options.oriented:
-            # A turned rectangle at the border reaches beyond it.
-            values = [(min(max(x, 0), width), min(max(y, 0), height)) for x, y in runs.min_rectangle(sum(one["outlines"], []))]
+            values = runs.min_rectangle(sum(one["outlines"], []))
+            # Trainers refuse corners beyond the border.
+            if not all(-1e-6 < x < width + 1e-6 and -1e-6 < y < height + 1e-6 for x, y in values):
+                values = [(left, top), (right, top), (right, bottom), (left, bottom)]
         return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
 
     def finish(self):

@@ -45,12 +45,16 @@ class Source:
                     raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
                 self._names.append(name)
                 self.datasets.append(dataset)
+        if len({one.folder.resolve() for one in self.datasets}) < len(self.datasets):
+            raise ValueError("a dataset is given twice")
         self._shares = self._shares_of_datasets(options)
         self._number_classes(options)
         require_known(options.sensor, {name: 0 for one in self.datasets for name in one.sensors}, "--sensor")
         self.pictures, self._taken = [], set()
         for index in range(len(self.datasets)):
             self._add_pictures(index, options)
+        if options.tile and not any(one.kind in ("strip", "sweep") for one in self.pictures):
+            raise ValueError("--tile: cuts waterfalls, echograms and sweeps, and there is none")
         if not self.pictures:
             raise ValueError(f"{folders[0]}: has no pictures to export: none of the sensors writes any")
 
