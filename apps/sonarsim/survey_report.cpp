@@ -143,7 +143,7 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
     const std::string limit =
         fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
     const std::optional<PingError> worst = error->worst();
-    if (!worst) return result_line("", "error " + limit);
+    if (!worst) return unknown > 0.0 ? result_line("", "error " + limit) : "";
     const auto is_measured = [](const PingError& ping) { return ping.relative_l1.has_value(); };
     const auto measured = std::ranges::count_if(error->pings, is_measured);
     std::string text =

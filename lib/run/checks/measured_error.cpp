@@ -70,6 +70,10 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const std::shared_ptr<const VisibilityEngine> then =
         engine_at(engine, assembly.motions, at.t_s);
     const Ping ping = direct_image(*sonar, scene, *then, T_world_sensor);
+    const auto is_dark = [](float echo) { return echo == 0.0F; };
+    if (std::ranges::all_of(truth.intensity, is_dark) &&
+        std::ranges::all_of(ping.intensity, is_dark))
+        return {pose, {}, 0.0};
     const double direct = error_without_noise(ping.intensity, truth);
     const auto change = [&](double finer) {
         return change_when_finer(sonar->settings, finer, scene, *then, T_world_sensor);

@@ -16,7 +16,7 @@ namespace sonarsim {
 /// reference is above half of both the error and the goal, it is the change to a finer goal.
 struct PingError {
     std::uint32_t pose = 0;
-    /// Nothing where neither the reference nor a finer image tells it.
+    /// Nothing where neither the reference nor a finer image tells it, or nothing is in view.
     std::optional<double> relative_l1;
     double noise = 0.0;  ///< the noise of the reference, which does not enter `relative_l1`
     bool by_finer_image = false;  ///< the change to a finer goal, for want of a better reference

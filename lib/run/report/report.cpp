@@ -120,6 +120,13 @@ void measure_errors(const PingSet& pings, const std::vector<Reference>& referenc
         trial.errors[p].relative_l1 = error_without_noise(ping.intensity, references[p]);
         trial.samples[p] = static_cast<double>(ping.counts.samples);
     });
+    // Pings that see nothing have no error.
+    std::vector<ImageError> seen;
+    for (std::size_t p = 0; p < references.size(); ++p) {
+        if (std::ranges::any_of(references[p].intensity, [](float echo) { return echo > 0.0F; }))
+            seen.push_back(trial.errors[p]);
+    }
+    if (!seen.empty()) trial.errors = std::move(seen);
 }
 
 /// One sonar with one setting. Errors are without noise: means over the poses, and the worst. Times

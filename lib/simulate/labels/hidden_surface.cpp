@@ -160,7 +160,7 @@ std::vector<SightLine> divided_lines(std::span<const SightLine> whole, const Lin
         for (std::size_t k = 0; k < lines.size(); ++k) {
             SightLine& line = lines[k];
             const bool is_met = std::isfinite(met[k].distance_m);
-            if (!is_met && (by_beams || layer > 0)) continue;
+            if (!is_met && (by_beams || line.behind_background)) continue;
             met_any[number[k]] = 1;
             if (by_beams || tracer.is_by_object(line)) {
                 const LineParts these = parts_of(line, met[k], width);

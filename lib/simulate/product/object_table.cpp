@@ -83,18 +83,39 @@ std::optional<double> level_around(const ObjectInPing& visible, const LevelMap& 
 }
 
 /// The box around the visible footprints of each object that is no background, sensor frame.
-std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
+/// Extends a box by the line p + t e, |t| <= 1, where its range lies between two.
+void extend_by_line(const Eigen::Vector3f& p, const Eigen::Vector3f& e, float near_m, float far_m,
+                    Eigen::AlignedBox3f& box) {
+    // The range is r at the roots of e^2 t^2 + 2 p.e t + p^2 - r^2.
+    const auto crossings = [&](float r) {
+        const float e2 = std::max(e.squaredNorm(), std::numeric_limits<float>::min());
+        const float middle = -p.dot(e) / e2;
+        const float half = std::sqrt(middle * middle - (p.squaredNorm() - r * r) / e2);
+        return std::pair(middle - half, middle + half);  // NaN if there is none
+    };
+    const auto [enters, leaves] = crossings(far_m);
+    float from = std::max(enters, -1.0F);
+    float to = std::min(leaves, 1.0F);
+    const auto [ends, begins] = crossings(near_m);
+    if (ends <= from && from < begins) from = begins;
+    if (ends < to && to <= begins) to = ends;
+    if (!(from <= to && enters <= leaves)) return;
+    box.extend(p + from * e);
+    box.extend(p + to * e);
+}
+
+/// The lines through the middles of samples are visible; their corners may not be.
+std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects, const View& view,
                                                const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
-    const auto extend = [&](const Sample& sample) {
+    for_each_received(traced, [&](const Sample& sample) {
         const std::uint32_t object = objects.object_of(sample.instance);
         if (objects.is_background(object)) return;
-        const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
-        Eigen::AlignedBox3f& box = boxes[object];
-        box.extend(sample.position - reach);
-        box.extend(sample.position + reach);
-    };
-    for_each_received(traced, extend);
+        for (const Eigen::Vector3f& edge : {sample.edge_u, sample.edge_v}) {
+            extend_by_line(sample.middle(), edge, static_cast<float>(view.range_min_m),
+                           static_cast<float>(view.range_max_m), boxes[object]);
+        }
+    });
     return boxes;
 }
 
@@ -205,7 +226,8 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
+    const std::vector<Eigen::AlignedBox3f> boxes =
+        visible_boxes(objects, sonar.settings.view, traced);
     std::vector<ObjectInPing> visible;
     for (std::size_t k = 0; k < all.size(); ++k) {
         ObjectInPing& object = all[k];
