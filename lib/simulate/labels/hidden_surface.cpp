@@ -95,6 +95,7 @@ class LineTracer {
     }
 
     HiddenSurface finish() {
+        drop_far_sides();
         HiddenSurface out{std::move(pieces_), {}};
         for (const SolidAngles& of : solid_angles_)
             out.visible_shares.push_back(static_cast<float>(of.visible / (of.visible + of.hidden)));
@@ -102,10 +103,41 @@ class LineTracer {
     }
 
   private:
+    /// A body's own far side is in its shadow only among other surface that the body hides.
+    void drop_far_sides() {
+        struct Hidden {
+            std::uint32_t object;
+            float near_m, far_m;
+        };
+        std::vector<std::vector<Hidden>> others(width_.view.beams);
+        const auto of = [&](const HiddenPiece& piece) {
+            return std::ranges::find(others[piece.beam], piece.object, &Hidden::object);
+        };
+        for (const HiddenPiece& piece : pieces_) {
+            if (piece.far_side) continue;
+            const float near_m = piece.range_m - piece.half_m;
+            const float far_m = piece.range_m + piece.half_m;
+            if (const auto known = of(piece); known != others[piece.beam].end())
+                *known = {piece.object, std::min(known->near_m, near_m),
+                          std::max(known->far_m, far_m)};
+            else
+                others[piece.beam].push_back({piece.object, near_m, far_m});
+        }
+        std::erase_if(pieces_, [&](const HiddenPiece& piece) {
+            if (!piece.far_side) return false;
+            const auto known = of(piece);
+            return known == others[piece.beam].end() ||
+                   piece.range_m + piece.half_m < known->near_m ||
+                   piece.range_m - piece.half_m > known->far_m;
+        });
+    }
+
     /// Records the surface that a line has met. True if the line continues.
     bool take(SightLine& line, const Intersection& met) {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
+        const bool is_far_side =
+            is_by_object(line) && owner_of(line) == objects_.object_of(met.instance);
         if (is_shadow(line)) {
             // Hidden surface lies behind what hides it, however far its plane extends.
             const float half_m = half_extent(line, line.range_m, met.normal, width_);
@@ -115,7 +147,8 @@ class LineTracer {
                 line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
             for (std::uint32_t beam = line.beam; beam <= line.last_beam; ++beam)
                 pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
-                                   0.5F * (far_m - near_m), each, line.behind_background});
+                                   0.5F * (far_m - near_m), each, line.behind_background,
+                                   is_far_side});
         }
         const std::uint32_t object = pass(line, met);
         if (!has_met(nodes_, line.last_node, object)) {
