@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/groups.h"
 #include "input/scene/maps/ground_maps.h"
@@ -63,12 +64,51 @@ bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTr
            area_b < max_height_ratio * area_a;
 }
 
+bool is_one_edge(const MeshSide& a, const MeshSide& b) {
+    return a.low == b.low && a.high == b.high;
+}
+
+/// 1 for the triangles that must be turned for one winding on both sides of each edge of two; files
+/// may differ in it. `sides`: as sides_by_edge().
+std::vector<std::uint8_t> turned_triangles(std::span<const MeshSide> sides, std::size_t count) {
+    constexpr std::uint32_t none = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> neighbours(3 * count, none);  // twice their number, + 1: is turned
+    for (std::size_t k = 0, end = 0; k < sides.size(); k = end) {
+        while (end < sides.size() && is_one_edge(sides[k], sides[end]))
+            ++end;
+        if (end - k != 2) continue;
+        const MeshSide& a = sides[k];
+        const MeshSide& b = sides[k + 1];
+        const std::uint32_t differs = a.forward == b.forward ? 1 : 0;
+        neighbours[3 * a.triangle + a.side] = 2 * b.triangle + differs;
+        neighbours[3 * b.triangle + b.side] = 2 * a.triangle + differs;
+    }
+    std::vector<std::uint8_t> turned(count, 0);
+    std::vector<std::uint8_t> known(count, 0);
+    std::vector<std::uint32_t> next;
+    for (std::uint32_t first = 0; first < count; ++first) {
+        if (std::exchange(known[first], 1) == 0) next.push_back(first);
+        while (!next.empty()) {
+            const std::uint32_t t = next.back();
+            next.pop_back();
+            for (int side = 0; side < 3; ++side) {
+                const std::uint32_t found = neighbours[3 * t + side];
+                if (found == none || std::exchange(known[found / 2], 1) != 0) continue;
+                turned[found / 2] = turned[t] ^ static_cast<std::uint8_t>(found % 2);
+                next.push_back(found / 2);
+            }
+        }
+    }
+    return turned;
+}
+
 /// Triangles that share edges, triangles that join smoothly, and the corners at which they do.
 struct JoinedTriangles {
     JoinedSets parts, regions, corners;
-    bool closed = true;  ///< no edge has one triangle, three or more, or two that differ in winding
+    bool closed = true;  ///< no edge has one triangle, or three or more, and no part has one side
 
-    explicit JoinedTriangles(const TargetShape& shape)
+    /// Turns normals so that neighbours have theirs on one side.
+    explicit JoinedTriangles(TargetShape& shape)
         : parts(shape.triangles.size()),
           regions(shape.triangles.size()),
           corners(3 * shape.triangles.size()) {
@@ -76,11 +116,17 @@ struct JoinedTriangles {
         for (const TargetTriangle& triangle : shape.triangles)
             triangles.push_back(triangle.corners);
         const std::vector<MeshSide> sides = sides_by_edge(triangles, shape.vertices.size());
+        const std::vector<std::uint8_t> turned = turned_triangles(sides, triangles.size());
+        for (std::size_t t = 0; t < turned.size(); ++t) {
+            if (turned[t] != 0) shape.triangles[t].normal *= -1.0F;
+        }
+        const auto is_forward = [&](const MeshSide& side) {
+            return side.forward != (turned[side.triangle] != 0);
+        };
         for (std::size_t k = 0, end = 0; k < sides.size(); k = end) {
-            while (end < sides.size() && sides[end].low == sides[k].low &&
-                   sides[end].high == sides[k].high)
+            while (end < sides.size() && is_one_edge(sides[k], sides[end]))
                 ++end;
-            const bool is_pair = end - k == 2 && sides[k].forward != sides[k + 1].forward;
+            const bool is_pair = end - k == 2 && is_forward(sides[k]) != is_forward(sides[k + 1]);
             if (is_pair) join(shape, sides[k], sides[k + 1]);
             closed = closed && is_pair;
         }
@@ -91,9 +137,10 @@ struct JoinedTriangles {
         parts.join(a.triangle, b.triangle);
         if (!is_smooth(shape, shape.triangles[a.triangle], shape.triangles[b.triangle])) return;
         regions.join(a.triangle, b.triangle);
-        // The sides run in opposite directions.
-        corners.join(3 * a.triangle + a.side, 3 * b.triangle + (b.side + 1) % 3);
-        corners.join(3 * a.triangle + (a.side + 1) % 3, 3 * b.triangle + b.side);
+        const bool same = a.forward == b.forward;
+        corners.join(3 * a.triangle + a.side, 3 * b.triangle + (b.side + (same ? 0 : 1)) % 3);
+        corners.join(3 * a.triangle + (a.side + 1) % 3,
+                     3 * b.triangle + (b.side + (same ? 1 : 0)) % 3);
     }
 };
 
@@ -102,8 +149,8 @@ void turn_outwards(TargetShape& shape, JoinedSets& parts) {
     std::vector<double> volume(shape.triangles.size(), 0.0);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         const TriangleCorners& c = shape.triangles[t].corners;
-        volume[parts.of(t)] +=
-            cross_of(shape.vertices, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
+        volume[parts.of(t)] += cross_of(shape.vertices, c).norm() *
+                               shape.triangles[t].normal.dot(shape.vertices[c[0]] - shape.centre);
     }
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         if (volume[parts.of(t)] < 0.0) shape.triangles[t].normal *= -1.0F;
@@ -183,7 +230,10 @@ class TargetFinder {
                 mesh.triangles.push_back(scene_.triangles[groups.items[k]]);
                 mesh.materials.push_back(scene_.triangle_material[groups.items[k]]);
             }
-            place(shape_of(mesh, 1.0F), instance, {}, Eigen::Affine3f::Identity());
+            const auto shape = shape_of(mesh, 1.0F);
+            // Engines give surface that files hold twice to the first instance.
+            if (shape && !is_repeated(out_.shapes[*shape]))
+                place(shape, instance, {}, Eigen::Affine3f::Identity());
         }
     }
 
@@ -235,8 +285,16 @@ class TargetFinder {
         out_.placed.push_back({*number, instance, body, T_local_shape, slope});
     }
 
+    bool is_repeated(const TargetShape& shape) {
+        const Eigen::Vector3f& c = shape.centre;
+        const auto [first, is_new] =
+            known_.try_emplace({c.x(), c.y(), c.z(), shape.radius_m}, &shape - out_.shapes.data());
+        return !is_new && out_.shapes[first->second].vertices == shape.vertices;
+    }
+
     const Scene& scene_;
     TargetShapes& out_;
+    std::map<std::array<float, 4>, std::ptrdiff_t> known_;  ///< shapes at rest, by their balls
 };
 
 }  // namespace
