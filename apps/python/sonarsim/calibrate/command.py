@@ -29,6 +29,9 @@ def result_of(name, pings, figures, notes, estimates):
     def column(figure):
         return None if figure.predicted is None else {
             "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
+    fitted = {key.split(".")[-1] for key in estimates}      # perhaps after a note that it is not
+    notes = [note for note in notes if not ("that of the start is kept" in note and
+                                            note.split(":")[0].split(".")[-1] in fitted)]
     changed = sum(a.measured.low > b.measured.high or a.measured.high < b.measured.low for _, a, b in figures)
     if 5 * changed > len(figures):
         notes = [*notes, f"{changed} of {len(figures)} figures of the judged pings lie outside the intervals of the "
@@ -154,6 +157,7 @@ def fit_by_passes(shaped, start, fit, source, options):
         elif way == "start":
             for key in LEVEL_KEYS:
                 one.estimates.pop(key, None)
+            one.notes = [note for note in one.notes if not note.startswith("full_scale_db is fitted")]
         one.notes += {"noise": [SCENE_DECIDES], "scene": [], "start": [
             "gain and noise are those of the start, with which more figures of a rendered pass agree", SCENE_DECIDES]}[way]
         text = text_of(start, new_keys(start, one), source)
@@ -220,7 +224,7 @@ def text_of(start, keys, source, more=()):
         text = with_key(text, key, value, comment, start.file)
     return "".join(f"# {line}".rstrip() + "\n" for line in (
         f"Fitted by sonarsim calibrate to {source}.",
-        "`fit`: a number that was estimated, with its interval of 95 %; `file`: the shape of the pings.", *more,
+        "`fit`: a number that was estimated, with its interval of 95 %; `file`: shape and law of the pings.", *more,
         "All others are those of the start, whose own head follows.", "")) + text
 
 

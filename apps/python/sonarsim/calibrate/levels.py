@@ -11,6 +11,7 @@ FULL, MAX_IMAGES, MAX_COLUMNS, RINGS = 255.0, 3, 32, 16
 QUANTILES = 0.1, 0.5, 0.9, 0.98
 # In dB, of all ranges, and of rings where the scene is seen as the pings see theirs, and where not. Chosen.
 LEVEL_ERROR, RING_ERROR, RING_ERROR_USUAL = 0.5, 1.5, 20.0
+WIDEST_DB = 40.0
 NUMBERS = {"full_scale_db": 30.0, "noise_db": 30.0, "tvg_log": 10.0}    # deviations from the start
 
 
@@ -92,6 +93,13 @@ def numbers_of(pairs, measured, first, law, scale, known):
     return first + (found.x - 10.0) * spread, errors
 
 
+def is_wide(name, number):
+    """True for a number that the levels do not show. The key tvg_log has limits."""
+    if name == "tvg_log":
+        return not 0.0 <= number.value <= 60.0 or number.high - number.low > WIDEST * number.value
+    return number.high - number.low > WIDEST_DB
+
+
 def fit_levels(windows, start, fit, mission=None, settings=()):
     """Sets gain and noise of a Fit to those with which the echoes of scenes have the levels of the pings. The first scene
     gives the value, all give the interval. `windows`: (recording, start of its shape)."""
@@ -102,15 +110,16 @@ def fit_levels(windows, start, fit, mission=None, settings=()):
     measured = [levels_of(greys_of(one), law, scale) for one, _ in windows]
     scenes = [records_of(windows, of, receiver, settings) for of in zip(*(scenes_of(one, own, mission)
                                                                            for one, own in windows))]
-    for known in (["tvg_log"] if "receiver.tvg_log" in fit.estimates else [], ["tvg_log"]):
+    known, wide = ["tvg_log"] if "receiver.tvg_log" in fit.estimates else [], True
+    while wide:
         found = [numbers_of(pairs, measured, first, law, scale, known) for pairs in scenes]
         low = np.min([values - 1.96 * errors for values, errors in found], axis=0)
         high = np.max([values + 1.96 * errors for values, errors in found], axis=0)
-        numbers = [Bounded(*map(float, ends)) for ends in zip(found[0][0], low, high)]
-        value, low, high = numbers[2]
-        if "tvg_log" in known or (0.0 <= value <= 60.0 and high - low <= WIDEST * value):   # the key's limits
-            break
-    for name, number in zip(NUMBERS, numbers):
+        numbers = {name: Bounded(*map(float, ends)) for name, *ends in zip(NUMBERS, found[0][0], low, high)}
+        wide = [name for name in numbers if name not in known and is_wide(name, numbers[name])]
+        fit.notes += [f"{name}: the levels hardly show it; that of the start is kept" for name in wide]
+        known = known + wide
+    for name, number in numbers.items():
         if name not in known:
             fit.set(f"receiver.{name}", number)
     fit.notes.append("gain and noise are those with which " + ("the mission's scene" if mission else

@@ -123,8 +123,10 @@ def new_keys(start, fit):
     out = {key: (value, "file: of the pings") for key, value in start.shape.items()}
     for key, value in fit.estimates.items():
         out[f"instrument.{key}"] = ((f"{value.value:.4g}", f"fit: {value.low:.4g} to {value.high:.4g}")
-                                    if isinstance(value, Bounded) else (value, "fit"))
+                                    if isinstance(value, Bounded) else (value, "fit" if isinstance(value, str) else "file"))
     receiver = start.instrument["receiver"]
+    if not fit.estimates.keys() & {"receiver.tvg_log", "receiver.full_scale_db"}:
+        return out
     if fit.noise and not receiver["tvg_absorption"]:
         out["instrument.receiver.tvg_absorption"] = "true", "rule: tvg_log is fitted beside the absorption of the water"
     if fit.noise and receiver.get("noise_db", "auto") == "auto" and "receiver.noise_db" not in fit.estimates:
