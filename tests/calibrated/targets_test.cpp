@@ -205,10 +205,12 @@ TEST_CASE("targets: a cube keeps its faces, a sphere has its radius and is close
 
     for (const int sides : {16, 20, 40}) {
         const Scene round = sphere_scene({3, 4, 5}, 2.0F, 0.4F, sides);
-        // The same triangles once more, seen from the other side.
-        std::vector<std::array<std::uint32_t, 3>> twice = round.triangles;
+        // Triangles of either winding, and each once more, seen from the other side.
+        std::vector<std::array<std::uint32_t, 3>> twice;
         for (const auto& [a, b, c] : round.triangles)
-            twice.push_back({a, c, b});
+            twice.insert(twice.end(), {{a, b, c}, {a, c, b}});
+        for (std::size_t k = 0; k < twice.size(); k += 2 * (1 + k % 3))
+            std::swap(twice[k], twice[k + 1]);
         const TargetShape sphere =
             target_shape({round.vertices, twice, std::vector<std::uint32_t>(twice.size(), 0)});
         CHECK(sphere.triangles.size() <= round.triangles.size());

@@ -188,7 +188,8 @@ class Status(Sandbox):
         for shard, folders, state, done in (("1/2", ["out"], "interrupted", 2), ("2/2", ["out", "part2"], "complete", 3)):
             self.assert_renders("--shard", shard, "--out", folders[-1])
             reported = self.status(*folders)
-            self.assertEqual((reported["state"], reported["variants"]), (state, {"done": done, "all": 3}))
+            self.assertEqual((reported["state"], reported["variants"], reported["pings"]),
+                             (state, {"done": done, "all": 3}, {"done": 6 * done, "all": 18}))
         self.assert_renders("--seed", "8", "--out", "other")
         self.assert_refused(self.run_sonarsim("status", "out", "other"), "holds variants of another mission")
         self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants.json")

@@ -69,7 +69,9 @@ class Variants(Sandbox):
             self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
             self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
         # One alone, and fewer of them.
-        self.succeeds("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out", "alone")
+        again = ("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out")
+        self.assert_refused(self.run_sonarsim(*again, "out/variant_0004"), "that is a variant of a mission")
+        self.succeeds(*again, "alone")
         self.assertEqual(digest(self.folder / "alone/fls/polar"), digest(self.out / "variant_0004/fls/polar"))
         self.assert_renders("--overwrite", "--set", "variants=3")
         self.assertEqual(self.variants(), index[:3])

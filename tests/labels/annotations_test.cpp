@@ -14,10 +14,11 @@ struct FoundObjects {
     std::vector<ObjectInPing> visible;
 
     FoundObjects(const Scene& scene, const SonarConfig& config, const Pose& pose,
-                 const std::vector<ObjectSphere>& spheres, bool all_shadows = false)
+                 const std::vector<ObjectSphere>& spheres, bool all_shadows = false,
+                 EngineKind kind = EngineKind::rays)
         : sonar(noise_free(config)),
           objects(objects_on_floor(scene)),
-          engine(make_engine(scene, {})),
+          engine(make_engine(scene, {.type = kind, .octree = {}})),
           traced(trace(sonar, scene, *engine, pose, 0)) {
         labels = label_ping(
             traced, sonar.settings, scene, objects, *engine,
@@ -179,4 +180,33 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
     }
     CHECK(partly_hidden > 5);
     CHECK(both / either > 0.97);
+}
+
+TEST_CASE("annotations: a thick box in open water before a plate, and a strip beyond the range") {
+    // The rectangle from 0 to (y, z) at the distance d has the solid angle atan(y z / (d r)), with
+    // r^2 = d^2 + y^2 + z^2. The box at 2 m hides the plate's part with |y| < 0.6 and z < 1.5.
+    const auto upper = [](double y, double z) {
+        return 2.0 * std::atan(y * z / (6.0 * std::hypot(6.0, y, z)));
+    };
+    const auto above = [&](double y) { return upper(y, 1.5) - upper(y, 0.3); };
+    Scene scene = floor_scene(40.0F, -30.0F, 0.5F);
+    add_box(scene, {2, -0.2F, -0.5F}, {2.05F, 0.2F, 0.5F}, 0);
+    std::ranges::replace_if(
+        scene.triangle_instance, [](auto k) { return k > 1; }, 1U);
+    add_rectangle(scene, {6, -1, 0.3F}, {6, 1, 1.5F}, 0);
+    add_quad(scene, {1, 3, -0.3F}, {30, 3, -0.3F}, {30, 3.2F, -0.3F}, {1, 3.2F, -0.3F}, 0);
+    SonarConfig config = wide_fan();
+    set_range(config, config.range_min_m, 14.0, 120);  // samples are as large as bins allow
+    const FoundObjects found(scene, config, {},
+                             {{{2, 0, 0}, 1.0}, {{6, 0, 0.9}, 1.5}, {{15, 3, -0.3}, 16.0}}, true,
+                             EngineKind::strips);
+    CHECK(found.labels.visible_share[7] == approx(1.0 - above(0.6) / above(1.0)).epsilon(0.01));
+    CHECK(found.object(9).box_sensor_m.max().x() ==
+          approx(std::sqrt(14.0 * 14.0 - 9.0 - 0.09)).epsilon(0.002));
+    int far_side = 0;
+    for (std::size_t k = 0; k < found.labels.size(); ++k) {
+        const double end_m = found.sonar.range_edges_m[k % found.labels.range_bins + 1];
+        far_side += end_m < 5.5 && found.labels.object_shadow[k] == 2;
+    }
+    CHECK(far_side == 0);
 }

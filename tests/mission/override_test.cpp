@@ -67,6 +67,7 @@ TEST_CASE("an override that cannot be read") {
                                 "a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q=1"}) {
         CHECK(set_refusal(setting) == "--set " + std::string(setting) + usage);
     }
+    CHECK(set_refusal("name=run #3").ends_with("begins a comment of YAML, needs quotes"));
     CHECK(set_refusal("seed=]").starts_with("--set seed=]: not valid YAML: "));
     CHECK(set_refusal("name=\xff").ends_with(": is not UTF-8 text; save the file as UTF-8"));
     const std::string list = smallest_mission + "    mount: {rpy_deg: [1, 2, 3]}\n";

@@ -63,7 +63,10 @@ TEST_CASE("kinds of sonars, engines and places") {
          {"echosounder, elevation_deg: 20",
           "3:34: unknown key 'elevation_deg'; this kind of sonar has none, leave it out"},
          {"sidescan, noise: {range_lambda_m: 0.1}",
-          "3:38: a side-scan sonar has no range noise: range_lambda_m must be 0"}},
+          "3:38: a side-scan sonar has no range noise: range_lambda_m must be 0"},
+         {"sidescan, moves_in_ping: true",
+          "3:46: moves_in_ping of a sonar with one beam needs model: calibrated; the paper's beams "
+          "have no pattern that turns during a ping"}},
         "}}\n");
     check_refused(
         smallest_mission,

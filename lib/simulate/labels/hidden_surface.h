@@ -19,7 +19,7 @@ struct HiddenPiece {
     std::uint32_t beam, object;  ///< the object that hides it
     float range_m, half_m, solid_angle;
     bool behind_background = false;  ///< background would hide it without the object
-    bool far_side = false;           ///< of the object itself, which is no background
+    bool far_side = false;           ///< surface of the object, which is no background
 };
 
 /// The hidden surface of a ping. Sight lines continue behind the first surface that they meet; the

@@ -195,6 +195,7 @@ TEST_CASE("OBJ, STL and PLY: files that are faulty") {
         {"a.stl", text_stl().substr(0, 200), "a.stl: the STL has no endsolid; it was cut off"},
         {"a.stl", binary_stl().substr(0, 200),
          "it claims 4 triangles, which take 284 bytes, and has 200"},
+        {"a.stl", binary_stl() + std::string(50, '\0'), "284 bytes, and has 334"},
         {"a.ply", "", "a.ply:1: the header of the PLY has no end_header"},
         {"a.ply", "plain\n", "a.ply:1: is not a PLY: its first line is not 'ply'"},
         {"a.ply", "ply\nformat ascii 1.0\nelement vertex -1\n",

@@ -143,7 +143,7 @@ bool take_element(std::string_view& body, const PlyHeader& header, const PlyElem
 }
 
 /// The relevant part of an STL: a binary one without the bytes that exporters leave behind its
-/// triangles. InputError if it ends before its last triangle does.
+/// triangles. InputError if it holds fewer or more triangles than it claims.
 std::string_view whole_stl(std::string& text, const Location& where) {
     const std::string_view bytes = text;
     constexpr std::size_t head = 84;
@@ -161,10 +161,10 @@ std::string_view whole_stl(std::string& text, const Location& where) {
         return text = mended_text(text, where);
     }
     if (bytes.size() < head) refuse(where, "is not an STL: it is too short for one");
-    if (size > bytes.size()) {
+    if (size > bytes.size() || bytes.size() - size >= triangle_bytes) {
         refuse(where,
-               "is not an STL, or its end is missing: it claims {} triangles, which take {} bytes, "
-               "and has {}; copy or export it again",
+               "is not a binary STL, or not whole: it claims {} triangles, which take {} bytes, and "
+               "has {}; copy or export it again",
                claimed, size, bytes.size());
     }
     return bytes.substr(0, size);
