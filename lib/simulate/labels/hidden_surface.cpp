@@ -103,32 +103,18 @@ class LineTracer {
     }
 
   private:
-    /// A body's own far side is in its shadow only among other surface that the body hides.
+    /// A body's own far side is in a shadow only among other hidden surface of its beam.
     void drop_far_sides() {
-        struct Hidden {
-            std::uint32_t object;
-            float near_m, far_m;
-        };
-        std::vector<std::vector<Hidden>> others(width_.view.beams);
-        const auto of = [&](const HiddenPiece& piece) {
-            return std::ranges::find(others[piece.beam], piece.object, &Hidden::object);
+        std::vector<Eigen::AlignedBox1f> others(width_.view.beams);
+        const auto extent = [](const HiddenPiece& piece) {
+            return Eigen::AlignedBox1f(Eigen::Matrix<float, 1, 1>(piece.range_m - piece.half_m),
+                                       Eigen::Matrix<float, 1, 1>(piece.range_m + piece.half_m));
         };
         for (const HiddenPiece& piece : pieces_) {
-            if (piece.far_side) continue;
-            const float near_m = piece.range_m - piece.half_m;
-            const float far_m = piece.range_m + piece.half_m;
-            if (const auto known = of(piece); known != others[piece.beam].end())
-                *known = {piece.object, std::min(known->near_m, near_m),
-                          std::max(known->far_m, far_m)};
-            else
-                others[piece.beam].push_back({piece.object, near_m, far_m});
+            if (!piece.far_side) others[piece.beam].extend(extent(piece));
         }
         std::erase_if(pieces_, [&](const HiddenPiece& piece) {
-            if (!piece.far_side) return false;
-            const auto known = of(piece);
-            return known == others[piece.beam].end() ||
-                   piece.range_m + piece.half_m < known->near_m ||
-                   piece.range_m - piece.half_m > known->far_m;
+            return piece.far_side && !others[piece.beam].intersects(extent(piece));
         });
     }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "core/groups.h"
 #include "input/scene/maps/ground_maps.h"
@@ -56,59 +55,22 @@ void add_triangles(const TargetMesh& mesh, TargetShape& shape) {
 }
 
 /// True if two triangles that share an edge are parts of one curved surface. Their areas are in the
-/// ratio of their heights over the edge.
-bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTriangle& b) {
+/// ratio of their heights over the edge. `same`: they run along it in one direction.
+bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTriangle& b,
+               bool same) {
     const double area_a = cross_of(shape.vertices, a.corners).norm();
     const double area_b = cross_of(shape.vertices, b.corners).norm();
-    return a.normal.dot(b.normal) >= crease_cosine && area_a < max_height_ratio * area_b &&
+    const float cosine = (same ? -1.0F : 1.0F) * a.normal.dot(b.normal);
+    return cosine >= crease_cosine && area_a < max_height_ratio * area_b &&
            area_b < max_height_ratio * area_a;
-}
-
-bool is_one_edge(const MeshSide& a, const MeshSide& b) {
-    return a.low == b.low && a.high == b.high;
-}
-
-/// 1 for the triangles that must be turned for one winding on both sides of each edge of two; files
-/// may differ in it. `sides`: as sides_by_edge().
-std::vector<std::uint8_t> turned_triangles(std::span<const MeshSide> sides, std::size_t count) {
-    constexpr std::uint32_t none = 0xFFFFFFFFU;
-    std::vector<std::uint32_t> neighbours(3 * count, none);  // twice their number, + 1: is turned
-    for (std::size_t k = 0, end = 0; k < sides.size(); k = end) {
-        while (end < sides.size() && is_one_edge(sides[k], sides[end]))
-            ++end;
-        if (end - k != 2) continue;
-        const MeshSide& a = sides[k];
-        const MeshSide& b = sides[k + 1];
-        const std::uint32_t differs = a.forward == b.forward ? 1 : 0;
-        neighbours[3 * a.triangle + a.side] = 2 * b.triangle + differs;
-        neighbours[3 * b.triangle + b.side] = 2 * a.triangle + differs;
-    }
-    std::vector<std::uint8_t> turned(count, 0);
-    std::vector<std::uint8_t> known(count, 0);
-    std::vector<std::uint32_t> next;
-    for (std::uint32_t first = 0; first < count; ++first) {
-        if (std::exchange(known[first], 1) == 0) next.push_back(first);
-        while (!next.empty()) {
-            const std::uint32_t t = next.back();
-            next.pop_back();
-            for (int side = 0; side < 3; ++side) {
-                const std::uint32_t found = neighbours[3 * t + side];
-                if (found == none || std::exchange(known[found / 2], 1) != 0) continue;
-                turned[found / 2] = turned[t] ^ static_cast<std::uint8_t>(found % 2);
-                next.push_back(found / 2);
-            }
-        }
-    }
-    return turned;
 }
 
 /// Triangles that share edges, triangles that join smoothly, and the corners at which they do.
 struct JoinedTriangles {
     JoinedSets parts, regions, corners;
-    bool closed = true;  ///< no edge has one triangle, or three or more, and no part has one side
+    bool closed = true;  ///< no edge has one triangle, three or more, or two that differ in winding
 
-    /// Turns normals so that neighbours have theirs on one side.
-    explicit JoinedTriangles(TargetShape& shape)
+    explicit JoinedTriangles(const TargetShape& shape)
         : parts(shape.triangles.size()),
           regions(shape.triangles.size()),
           corners(3 * shape.triangles.size()) {
@@ -116,28 +78,23 @@ struct JoinedTriangles {
         for (const TargetTriangle& triangle : shape.triangles)
             triangles.push_back(triangle.corners);
         const std::vector<MeshSide> sides = sides_by_edge(triangles, shape.vertices.size());
-        const std::vector<std::uint8_t> turned = turned_triangles(sides, triangles.size());
-        for (std::size_t t = 0; t < turned.size(); ++t) {
-            if (turned[t] != 0) shape.triangles[t].normal *= -1.0F;
-        }
-        const auto is_forward = [&](const MeshSide& side) {
-            return side.forward != (turned[side.triangle] != 0);
-        };
         for (std::size_t k = 0, end = 0; k < sides.size(); k = end) {
-            while (end < sides.size() && is_one_edge(sides[k], sides[end]))
+            while (end < sides.size() && sides[end].low == sides[k].low &&
+                   sides[end].high == sides[k].high)
                 ++end;
-            const bool is_pair = end - k == 2 && is_forward(sides[k]) != is_forward(sides[k + 1]);
+            const bool is_pair = end - k == 2;
             if (is_pair) join(shape, sides[k], sides[k + 1]);
-            closed = closed && is_pair;
+            closed = closed && is_pair && sides[k].forward != sides[k + 1].forward;
         }
     }
 
   private:
     void join(const TargetShape& shape, const MeshSide& a, const MeshSide& b) {
         parts.join(a.triangle, b.triangle);
-        if (!is_smooth(shape, shape.triangles[a.triangle], shape.triangles[b.triangle])) return;
-        regions.join(a.triangle, b.triangle);
         const bool same = a.forward == b.forward;
+        if (!is_smooth(shape, shape.triangles[a.triangle], shape.triangles[b.triangle], same))
+            return;
+        regions.join(a.triangle, b.triangle);
         corners.join(3 * a.triangle + a.side, 3 * b.triangle + (b.side + (same ? 0 : 1)) % 3);
         corners.join(3 * a.triangle + (a.side + 1) % 3,
                      3 * b.triangle + (b.side + (same ? 1 : 0)) % 3);
@@ -149,8 +106,8 @@ void turn_outwards(TargetShape& shape, JoinedSets& parts) {
     std::vector<double> volume(shape.triangles.size(), 0.0);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         const TriangleCorners& c = shape.triangles[t].corners;
-        volume[parts.of(t)] += cross_of(shape.vertices, c).norm() *
-                               shape.triangles[t].normal.dot(shape.vertices[c[0]] - shape.centre);
+        volume[parts.of(t)] +=
+            cross_of(shape.vertices, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
     }
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         if (volume[parts.of(t)] < 0.0) shape.triangles[t].normal *= -1.0F;
@@ -186,17 +143,34 @@ float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
     return turned2 > 1e-8F ? along / turned2 : 0.0F;
 }
 
-/// Sets the normals at corners: weighted means over the triangles that join smoothly there.
+/// Sets the normals at corners: weighted means over the triangles that join smoothly there. Files
+/// may differ in the winding of neighbours; each counts with its normal on the triangle's side.
 void set_smooth_normals(TargetShape& shape, JoinedSets& corners) {
-    std::vector<Eigen::Vector3f> sum(3 * shape.triangles.size(), Eigen::Vector3f::Zero());
+    std::vector<Eigen::Vector3f> weighted;
+    std::vector<std::uint32_t> set_of;
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
-        for (int k = 0; k < 3; ++k)
-            sum[corners.of(3 * t + k)] += weighted_normal(shape, shape.triangles[t], k);
+        for (int k = 0; k < 3; ++k) {
+            weighted.push_back(weighted_normal(shape, shape.triangles[t], k));
+            set_of.push_back(corners.of(3 * t + k));
+        }
     }
+    const Groups sets = sort_into_groups(set_of, set_of.size());
+    const auto mean_at = [&](std::uint32_t corner, const Eigen::Vector3f& normal) {
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+        for (std::uint32_t k = sets.begin[set_of[corner]]; k < sets.begin[set_of[corner] + 1];
+             ++k) {
+            const Eigen::Vector3f& one = weighted[sets.items[k]];
+            if (one.dot(normal) < 0.0F)
+                sum -= one;
+            else
+                sum += one;
+        }
+        return sum.normalized();
+    };
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         TargetTriangle& triangle = shape.triangles[t];
         for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector3f mean = sum[corners.of(3 * t + k)].normalized();
+            const Eigen::Vector3f mean = mean_at(3 * t + k, triangle.normal);
             // The sides of a cone have no common normal at its tip.
             const bool has_mean = mean.dot(triangle.normal) >= crease_cosine;
             triangle.normals[k] = has_mean ? mean : triangle.normal;
