@@ -103,27 +103,6 @@ TEST_CASE("labels: the shadows of a sea floor are those that rays through all su
     }
 }
 
-TEST_CASE("labels: in a full turn the beams next to the seam lend each other a shadow's owner") {
-    // 12 beams. Lines end in the beams 11 and 2; beam 0 is next to 11, and in a fan nearest to 2.
-    View view{.azimuth_rad = 2.0 * pi,
-              .elevation_rad = 0.5,
-              .range_min_m = 1.0,
-              .range_max_m = 2.0,
-              .range_bins = 1,
-              .beams = 12};
-    const std::vector<HiddenPiece> pieces{{11, 4, 1.5F, 0.1F, 1.0F}, {2, 7, 1.5F, 0.1F, 1.0F}};
-    const std::vector<std::uint8_t> covered{1};
-    const std::vector<std::uint8_t> occupied{0};
-    const auto owner_in_beam_0 = [&] {
-        std::vector<std::uint16_t> shadow(1);
-        ShadowFinder(pieces, view).find(0, covered, occupied, shadow);
-        return shadow.front();
-    };
-    CHECK(owner_in_beam_0() == 4 + 1);
-    view.azimuth_rad = 2.0;
-    CHECK(owner_in_beam_0() == 7 + 1);
-}
-
 TEST_CASE("labels: hidden surface before the first bin and behind the last covers none") {
     const RangeBins bins{.min_m = 1.0F, .bin_m = 0.1F, .count = 10};
     const auto covered = [&](float range_m) {

@@ -11,10 +11,6 @@ namespace sonarsim {
 
 namespace {
 
-// Surface without a sight line belongs to a shadow in these beams at most: edges of the view have
-// such bins, too.
-constexpr int max_beams_away = 2;
-
 /// Replaces each 0 by the nearest other value, in a tie by the one before. False: all are 0.
 bool fill_gaps(std::span<std::uint16_t> ids) {
     const auto count = static_cast<int>(ids.size());
@@ -81,8 +77,7 @@ std::vector<KeyedSource> sources_of(const EchoSums& sums) {
 }  // namespace
 
 ShadowFinder::ShadowFinder(std::span<const HiddenPiece> pieces, const View& view)
-    : full_turn_(is_full_turn(view)),
-      range_bins_(static_cast<std::size_t>(view.range_bins)),
+    : range_bins_(static_cast<std::size_t>(view.range_bins)),
       sums_(sums_of(pieces, view)),
       finder_(sources_of(sums_)),
       owners_(view.beams) {}
@@ -96,25 +91,13 @@ std::vector<std::uint16_t>& ShadowFinder::owners(int j) {
     return owners;
 }
 
-std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
-    const auto beams = static_cast<int>(owners_.size());
-    for (int away = 0; away <= std::min(max_beams_away, beams - 1); ++away) {
-        for (int beam : {j - away, j + away}) {
-            if (full_turn_) beam = (beam + beams) % beams;
-            if (beam < 0 || beam >= beams) continue;
-            if (fill_gaps(owners(beam))) return owners(beam);
-        }
-    }
-    return owners(j);
-}
-
 void ShadowFinder::find(int j, std::span<const std::uint8_t> covered,
                         std::span<const std::uint8_t> occupied, std::span<std::uint16_t> shadow) {
     std::ranges::fill(shadow, 0);
     if (sums_.sources() == 0 || !has_dark_bins(covered, occupied)) return;
     // The nearest owners are needed only where no line ends in a dark bin.
-    if (!name_dark_bins(covered, occupied, owners(j), shadow))
-        name_dark_bins(covered, occupied, nearest_owners(j), shadow);
+    if (!name_dark_bins(covered, occupied, owners(j), shadow) && fill_gaps(owners(j)))
+        name_dark_bins(covered, occupied, owners(j), shadow);
 }
 
 std::vector<std::uint8_t> bins_above_shadow(const EchoSums& sums, int beam,

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 /// Finds the bins in shadow: they hold surface, and none of it is visible. A bin in shadow gets the
 /// object that hides most of its surface by solid angle. If no sight line ends in it, it gets the
-/// object of the nearest bin in which one does, within two beams.
+/// object of the nearest bin of its beam in which one does.
 class ShadowFinder {
   public:
     /// `pieces`: the hidden surface.
@@ -23,10 +23,8 @@ class ShadowFinder {
               std::span<std::uint16_t> shadow);
 
   private:
-    std::span<const std::uint16_t> nearest_owners(int j);
     std::vector<std::uint16_t>& owners(int j);
 
-    bool full_turn_;
     std::size_t range_bins_;
     EchoSums sums_;  ///< the solid angles of hidden surface, by the object that hides it
     TopTwoFinder finder_;
