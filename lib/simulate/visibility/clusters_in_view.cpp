@@ -80,11 +80,10 @@ void add_cluster(const MeshView& from, std::span<const std::uint32_t> triangles,
             local[k] = static_cast<std::uint8_t>(at - used.begin());
         }
         mesh.corners.push_back(local);
-        const Eigen::Vector3d twice = cross_of(from.vertices, corners);
+        const Eigen::Vector3d normal = cross_of(from.vertices, corners).normalized();
         const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
-        mesh.facets.push_back({twice.normalized().cast<float>(), from.materials[triangle],
-                               from.instances[owner], static_cast<float>(0.5 * twice.norm()),
-                               triangle});
+        mesh.facets.push_back(
+            {normal.cast<float>(), from.materials[triangle], from.instances[owner], triangle});
     }
     mesh.clusters.push_back(cluster);
 }
@@ -147,7 +146,7 @@ class ClusterPlacer {
             out_.corners.push_back(mesh.corners[triangle]);
             const ClusterFacet& facet = mesh.facets[triangle];
             out_.facets.push_back({R_ * facet.normal / scale_, facet.material, instance_,
-                                   scale_ * scale_ * facet.area_m2, first_number_ + facet.number});
+                                   first_number_ + facet.number});
         }
     }
 

@@ -18,7 +18,6 @@ struct ClusterFacet {
     Eigen::Vector3f normal;  ///< unit; zero for a triangle without area
     std::uint32_t material;
     std::uint32_t instance;
-    float area_m2;
     std::uint32_t number;  ///< the triangle in its mesh; a placed one in the whole scene
 };
 

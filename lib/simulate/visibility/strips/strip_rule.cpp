@@ -37,7 +37,6 @@ StripRule strip_rule(const View& view) {
     if (view.energies_add && view.shape == ViewShape::port_starboard) rule.columns *= side_columns;
     rule.bin_m = bin_m;
     rule.range_max_m = static_cast<float>(view.range_max_m);
-    rule.small_m = finer * bin_m;
     rule.sag_m = 0.09F * finer * bin_m;
     rule.wedge_m = std::max(finer, 0.5F) * bin_m;
     rule.taper = 0.35F;

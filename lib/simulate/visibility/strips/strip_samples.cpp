@@ -77,21 +77,19 @@ void StripSamples::add(const Strip& strip) {
     const auto side = [&](float u) {
         float low = v.low + v.low_slope * (u - strip.middle);
         float high = v.high + v.high_slope * (u - strip.middle);
-        if (!strip.small) {
-            float min_w = pieces_.low(strip.piece, u).w;
-            float max_w = pieces_.high(strip.piece, u).w;
-            if (!frame_.surely_sees(u, u, min_w, max_w)) {
-                const ColumnLimits view = frame_.limits_at(u);
-                min_w = std::max(min_w, view.low);
-                max_w = std::min(max_w, view.high);
-            }
-            low = std::max(min_w, std::min(max_w, low));
-            high = std::max(min_w, std::min(max_w, high));
+        float min_w = pieces_.low(strip.piece, u).w;
+        float max_w = pieces_.high(strip.piece, u).w;
+        if (!frame_.surely_sees(u, u, min_w, max_w)) {
+            const ColumnLimits view = frame_.limits_at(u);
+            min_w = std::max(min_w, view.low);
+            max_w = std::min(max_w, view.high);
         }
+        low = std::max(min_w, std::min(max_w, low));
+        high = std::max(min_w, std::min(max_w, high));
         if (high < low) low = high = 0.5F * (low + high);
         return std::pair(low, high);
     };
-    auto [from, to] = strip.small ? std::pair(strip.from, strip.to) : ends(strip);
+    auto [from, to] = ends(strip);
     auto [near_low, near_high] = side(from);
     auto [far_low, far_high] = side(to);
     float lengths = near_high - near_low + far_high - far_low;
@@ -104,22 +102,19 @@ void StripSamples::add(const Strip& strip) {
         to = 0.5F * (to + strip.middle);
     }
     Quad quad{point(strip, from, near_low), point(strip, from, near_high),
-              point(strip, to, far_low), point(strip, to, far_high), strip.area_m2};
-    if (!(quad.area_m2 > 0.0F)) {
-        quad.area_m2 =
-            0.5F * (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm();
-        if (to - from < strip.to - strip.from)
-            quad.area_m2 *= (strip.to - strip.from) / (to - from);
-        // The area is the whole width times the length at the middle, which is right on average
-        // wherever borders end within the piece. On a line u = const lengths are as dw / (q q').
-        const float low = 0.5F * (near_low + far_low);
-        const float high = 0.5F * (near_high + far_high);
-        if (std::fabs(0.5F * lengths - length) > same_length * length) {
-            const auto q = [&](float w) { return 1.0F / point(strip, strip.middle, w).x(); };
-            quad.area_m2 *= length * q(low) * q(high) / (0.5F * lengths * q(v.low) * q(v.high));
-        }
+              point(strip, to, far_low), point(strip, to, far_high), 0.0F};
+    quad.area_m2 =
+        0.5F * (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm();
+    if (to - from < strip.to - strip.from) quad.area_m2 *= (strip.to - strip.from) / (to - from);
+    // The area is the whole width times the length at the middle, which is right on average
+    // wherever borders end within the piece. On a line u = const lengths are as dw / (q q').
+    const float low = 0.5F * (near_low + far_low);
+    const float high = 0.5F * (near_high + far_high);
+    if (std::fabs(0.5F * lengths - length) > same_length * length) {
+        const auto q = [&](float w) { return 1.0F / point(strip, strip.middle, w).x(); };
+        quad.area_m2 *= length * q(low) * q(high) / (0.5F * lengths * q(v.low) * q(v.high));
     }
-    if (quad.area_m2 > 0.0F) add_quad(strip.triangle, quad, strip.small);
+    if (quad.area_m2 > 0.0F) add_quad(strip.triangle, quad);
 }
 
 /// The number of parts of equal shares of u.
@@ -159,13 +154,13 @@ float StripSamples::distance_bound(const Quad& quad) {
            0.5F * std::sqrt(width2);
 }
 
-void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, bool small) {
+void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad) {
     const Ranges r{quad.near_low.norm(), quad.near_high.norm(), quad.far_low.norm(),
                    quad.far_high.norm()};
     const float nearest = std::min({r.near_low, r.near_high, r.far_low, r.far_high});
     const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
     if (nearest > end && distance_bound(quad) > end) return;
-    const int parts = small ? 1 : parts_across(quad, r);
+    const int parts = parts_across(quad, r);
     // The range of an edge of length l bends by at most l^2 / (8 r).
     const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
                                     (quad.far_high - quad.far_low).squaredNorm());

@@ -14,7 +14,6 @@ namespace sonarsim {
 /// Limits of columns and samples that keep a view's image within its error goal.
 struct StripRule {
     float columns;  ///< parts of each least column, if nothing in view is thin
-    float small_m;  ///< pieces that span less range stand as one strip
     float bin_m;
     float range_max_m;
     float sag_m;      ///< largest deviation of a sample's range from the linear one
@@ -91,9 +90,6 @@ struct Strip {
     int piece;
     float from, middle, to;   ///< u
     VisibleInterval visible;  ///< at the middle
-    /// For small pieces: the area of the part; its borders are lines. 0: from the corners.
-    float area_m2 = 0.0F;
-    bool small = false;
 };
 
 /// Converts strips to the samples of a beam.
@@ -119,7 +115,7 @@ class StripSamples {
     std::pair<float, float> ends(const Strip& strip) const;
     Eigen::Vector3f point(const Strip& strip, float u, float w) const;
     static float distance_bound(const Quad& quad);
-    void add_quad(const StripTriangle& triangle, const Quad& quad, bool small);
+    void add_quad(const StripTriangle& triangle, const Quad& quad);
     int parts_across(const Quad& quad, const Ranges& range) const;
     int parts_along(const Quad& quad, float& low_width, float& high_width) const;
     Quad within_range(const Quad& quad) const;

@@ -213,7 +213,6 @@ class TriangleProjection {
         t.q0 = q[first];
         t.q_min = std::min({q[0], q[1], q[2]});
         t.q_max = std::max({q[0], q[1], q[2]});
-        t.q_middle = (q[0] + q[1] + q[2]) / 3.0F;
         t.w0 = w[first];
         t.w1 = w[middle];
         t.long_slope = (w[last] - w[first]) / (t.u2 - t.u0);
@@ -224,7 +223,6 @@ class TriangleProjection {
         const float rise = t.w1 - t.w0 - t.long_slope * (t.u1 - t.u0);
         t.middle_above = rise > 0.0F;
         const float picture = 0.5F * (t.u2 - t.u0) * std::fabs(rise);
-        t.area_per_unit = clipped || !(picture > 0.0F) ? 0.0F : data.area_m2 / picture;
         t.facet = facet;
         t.number = data.number;
         out_.items.push_back(t);

@@ -88,10 +88,8 @@ struct StripTriangle {
     float q0, q_u, q_w;
     float q_min, q_max;
     float w_min, w_max;
-    float q_middle;
     float height_m;            ///< distance of the sensor from the plane
     float side;                ///< 1: the facet's normal faces the sensor, else -1
-    float area_per_unit;       ///< m^2 per unit of its picture; 0: part of a clipped triangle
     std::uint32_t facet;       ///< a number for ClustersInView::facet()
     std::uint32_t number;      ///< in one place the triangle of the lower number counts
     bool middle_above;         ///< the middle corner lies above the line between the others

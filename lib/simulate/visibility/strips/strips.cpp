@@ -24,7 +24,6 @@ class ColumnScan {
                const ColumnFrame& frame, const StripRule& rule, std::vector<Sample>& out)
         : triangles_(triangles),
           frame_(frame),
-          rule_(rule),
           visibility_(pieces_),
           samples_(clusters, frame, rule, pieces_, out),
           hider_(triangles.size(), no_triangle),
@@ -70,42 +69,8 @@ class ColumnScan {
                 add_at_border(i, low, high);
         };
         if (!(t.u1 > from && t.u1 < to)) return add(from, to);
-        const float steepest = std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k]));
-        const float depth = std::max(1.0F / p.q_min[k] - 1.0F / p.q_max[k],
-                                     (p.w_max[k] - p.w_min[k]) * steepest / p.q_min[k]);
-        if (inside && !(depth > rule_.small_m)) return add_small(i, t);
         add(from, t.u1);
         add(t.u1, to);
-    }
-
-    /// A piece with a corner, in few bins: one strip at its middle, with the share of the piece's
-    /// area that is visible there.
-    void add_small(int i, const StripTriangle& t) {
-        const float from = pieces_.from(i);
-        const float to = pieces_.to(i);
-        const float u = 0.5F * (from + to);
-        const auto length_at = [&](float at) {
-            return pieces_.high(i, at).w - pieces_.low(i, at).w;
-        };
-        const float length = length_at(u);
-        if (!(length > 0.0F)) return;
-        const float at_corner = length_at(t.u1);
-        const float picture = 0.5F * ((length_at(from) + at_corner) * (t.u1 - from) +
-                                      (at_corner + length_at(to)) * (to - t.u1));
-        if (!visibility_.find(u, whole_at(i, u))) {
-            if (const int j = visibility_.hidden_by(); j != PieceVisibility::none)
-                hider_[pieces_.triangle(i)] = pieces_.triangle(j);
-            return;
-        }
-        const float half = 0.5F * picture / length;
-        const PieceBlock& p = pieces_.block_of(i);
-        const float nearer = t.q_middle / p.q[i % lanes];
-        for (VisibleInterval part : visibility_.parts()) {
-            part.low_slope = part.high_slope = t.long_slope;
-            const float share = (part.high - part.low) / length;
-            samples_.add({t, i, u - half, u, u + half, part,
-                          t.area_per_unit * picture * share * nearer * nearer * nearer, true});
-        }
     }
 
     /// The piece on the line u, within the view.
@@ -188,7 +153,6 @@ class ColumnScan {
 
     const std::vector<StripTriangle>& triangles_;
     const ColumnFrame& frame_;
-    const StripRule& rule_;
     ColumnPieces pieces_;
     PieceVisibility visibility_;
     StripSamples samples_;
