@@ -114,7 +114,8 @@ void print_preset(const Json& preset) {
 std::string presets_text(const std::vector<Json>& presets) {
     constexpr const char* row = "{:33}{:>6}{:>9}{:>7}{:>7}{:>7}{:>8}\n";
     const auto number = [](const Json& value) {
-        return fmt::format("{:.3g}", value.get<double>());
+        const double metres = value.get<double>();
+        return metres < 1000.0 ? fmt::format("{:.3g}", metres) : fmt::format("{:.0f}", metres);
     };
     std::string text = fmt::format(fmt::runtime(row), "preset", "kHz", "range, m", "mud", "sand",
                                    "rock", "sphere");

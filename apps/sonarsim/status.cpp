@@ -14,7 +14,7 @@ struct StatusArguments {
 
 const char* state_of(const JobStatus& status) {
     if (status.complete()) return "complete";
-    return status.running ? "running" : "interrupted";
+    return status.running ? "running" : "incomplete";
 }
 
 void print_json(const JobStatus& status) {

@@ -153,7 +153,7 @@ class Status(Sandbox):
 
     def test_shards_one_after_the_other(self):
         self.assert_renders("--shard", "2/3")
-        self.assertEqual(self.status("out"), {"mission": "box", "state": "interrupted", "pings": {"done": 2, "all": 6}})
+        self.assertEqual(self.status("out"), {"mission": "box", "state": "incomplete", "pings": {"done": 2, "all": 6}})
         # Another shard in a folder of its own: both together are reported.
         self.assert_renders("--shard", "1/3", "--out", "other")
         self.assertEqual(self.status("out", "other")["pings"], {"done": 4, "all": 6})
@@ -181,11 +181,11 @@ class Status(Sandbox):
                 self.assertEqual(self.status("out")["state"], "running")
             finally:
                 process.terminate()
-        self.assertEqual(self.status("out")["state"], "interrupted")
+        self.assertEqual(self.status("out")["state"], "incomplete")
 
     def test_variants(self):
         self.add(VARIED)
-        for shard, folders, state, done in (("1/2", ["out"], "interrupted", 2), ("2/2", ["out", "part2"], "complete", 3)):
+        for shard, folders, state, done in (("1/2", ["out"], "incomplete", 2), ("2/2", ["out", "part2"], "complete", 3)):
             self.assert_renders("--shard", shard, "--out", folders[-1])
             reported = self.status(*folders)
             self.assertEqual((reported["state"], reported["variants"], reported["pings"]),

@@ -157,4 +157,4 @@ class Hostile(Rendered):
         self.describe(json.dumps(self.dataset() | {"complete": False}))
         for name in ("1-of-0.txt", "2-of-1.txt", "1-of-4294967296.txt", "1-of-2000000000.txt"):
             self.write(f"out/journal.d/{name}", "")
-        self.assertEqual(self.reported("status", "out")["state"], "interrupted")
+        self.assertEqual(self.reported("status", "out")["state"], "incomplete")

@@ -155,9 +155,12 @@ def mission_of(top, arguments):
     remarks += ["a scenario says where the agent starts, not where it goes: the mission goes 10 m ahead; write a "
                 "trajectory of your own", "the world is a level of the game engine: export it, or name another scene"]
     say("\nsonarsim import-holoocean: ".join(remarks))
+    def beside(path):
+        given = path in (arguments.scene, arguments.materials) and arguments.out and not os.path.isabs(path)
+        return os.path.relpath(path, os.path.dirname(arguments.out) or ".") if given else path
     named = {"name": re.sub(NOT_IN_NAMES, "_", take("", top, "name", str))[:60] or "sonar"} if "name" in top else {}
     return named | {"#": remarks, "water": water,
-            "scene": {"file": arguments.scene, "materials": arguments.materials},
+            "scene": {"file": beside(arguments.scene or "scene.glb"), "materials": beside(arguments.materials or "materials.csv")},
             "trajectory": {"waypoints": [{"position_m": at, "rpy_deg": turn} for at in (start, end)], "rate_hz": rate},
             "sensors": sensors}
 
@@ -193,8 +196,8 @@ def main():
     parser = argparse.ArgumentParser("sonarsim import-holoocean", description=__doc__.splitlines()[0].split(": ")[1])
     parser.add_argument("scenario", help="the scenario, a JSON file")
     parser.add_argument("--out", metavar="FILE", help="the mission, a new file (default: standard output)")
-    parser.add_argument("--scene", metavar="FILE", default="scene.glb", help="the scene of the mission")
-    parser.add_argument("--materials", metavar="FILE", default="materials.csv", help="a CSV; HoloOcean's own is one")
+    parser.add_argument("--scene", metavar="FILE", help="the scene of the mission")
+    parser.add_argument("--materials", metavar="FILE", help="a CSV; HoloOcean's own is one")
     return run("import-holoocean", convert, parser.parse_args())
 
 

@@ -31,7 +31,9 @@ class SceneModel {
         model_.asset.generator = "sonarsim";
         // From z up to y up: a quarter turn about x.
         const double half = std::sqrt(0.5);
-        add_node(model_, "z up, metres", -1).rotation = {-half, 0.0, 0.0, half};
+        tinygltf::Node& world = add_node(model_, "z up, metres", -1);
+        world.rotation = {-half, 0.0, 0.0, half};
+        world.translation = {scene_.origin.x(), scene_.origin.z(), -scene_.origin.y()};
         model_.scenes.emplace_back().nodes = {0};
         model_.defaultScene = 0;
     }

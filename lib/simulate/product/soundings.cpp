@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/elementary.h"
+#include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -210,6 +211,14 @@ DetectedReturn detect_return(std::span<const double> beam) {
     run.rival = std::max(contrast.coarse(0, run.begin - apart).contrast,
                          contrast.coarse(run.end + apart, contrast.bins()).contrast);
     return run;
+}
+
+float farthest_surface_m(const TracedPing& traced) {
+    float farthest_m = 0.0F;
+    for_each_received(traced, [&](const Sample& sample) {
+        farthest_m = std::max(farthest_m, arrival_range(sample.position));
+    });
+    return farthest_m;
 }
 
 std::optional<int> first_return(std::span<const float> column) {

@@ -57,10 +57,15 @@ void echogram_row(std::span<const float> bins, double white, const StripFrame& f
     }
 }
 
-/// The slant range of the bottom's leading edge, the middle of its bin; null when the ping is dark.
+/// The slant range of the bottom's leading edge, the middle of its bin; null without surface.
 void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
+    // A second bottom echo may be the brighter one.
+    const std::vector<double>& edges = view.sonar.range_edges_m;
+    const auto end = std::ranges::upper_bound(edges, farthest_surface_m(view.traced));
+    const auto bins = std::min<std::ptrdiff_t>(end - edges.begin(), view.ping.range_bins);
     std::optional<double> depth_m;
-    if (const auto bin = first_return(view.ping.intensity)) depth_m = view.sonar.middle_m(*bin);
+    if (const auto bin = first_return(std::span(view.ping.intensity).first(bins)))
+        depth_m = view.sonar.middle_m(*bin);
     json["depth_m"] = number_or_null(depth_m);
 }
 

@@ -34,7 +34,7 @@ def prepare(picture, numbers, options):
     """(pieces, counts of what is left out) of a picture of a dataset."""
     frames = frames_of(picture, options)
     parts = [part_of(picture, frame) for frame in frames]
-    if not any(parts) and options.format != "crops":
+    if not any(parts) and (options.format != "crops" or picture.kind != "strip"):
         return [], {"pictures": len(frames)}
     pixels, is_copy = pixels_of(picture, len(frames) == 1, options)     # first, since the masks are as large
     with data.reading(picture.facts):

@@ -70,7 +70,7 @@ Ids shares(const PingLabels& labels) {
     const Floats& values = labels.*member;
     Ids rounded(values.size());
     std::ranges::transform(values, rounded.begin(), [](float share) {
-        return static_cast<std::uint16_t>(65535.0F * share + 0.5F);
+        return static_cast<std::uint16_t>(65535.0F * share + 0.49F);  // two sum to 65535 at most
     });
     return rounded;
 }
