@@ -87,7 +87,7 @@ TEST_CASE("levels: the pulse's band and length are those of the range response")
         constexpr double bins = 12.0;  // wide, so that the spline follows the pulse
         const PulseConfig pulse{.side_lobe_db = side_lobe_db};
         const PulseBand band = pulse_band(pulse, 0.1, 1500.0);
-        const RangeTaps taps = range_taps(bins, side_lobe_db, false);
+        const RangeTaps taps = range_taps(bins, side_lobe_db);
         double energy = 0.0;
         for (std::size_t m = 0; m < taps.taps.size(); ++m) {
             energy += 2.0 / 3.0 * taps.taps[m] * taps.taps[m];

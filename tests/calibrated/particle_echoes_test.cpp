@@ -35,8 +35,7 @@ double equation(const CalibratedModel& model, double range_m) {
 }  // namespace
 
 // EL = SL + TS + D - 40 log r - 2 alpha r with SL = 0. The two-way pattern D of a disc is the
-// fourth power of 2 J1(x) / x, x = k a sin(angle). The taps of a pulse of several bins are not
-// below 0.
+// fourth power of 2 J1(x) / x, x = k a sin(angle).
 TEST_CASE("particles: the level of a target in an echosounder, at every place") {
     const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
     const CalibratedModel model =
@@ -71,7 +70,7 @@ TEST_CASE("particles: the level of a target in the beam of a fan, and by elevati
         const std::vector<float> image = image_of_traced(model, view, ping_of_points({place}), {});
         return db_of_power(echo_of_beam(model, image, 61, 30) / equation(model, 9.0));
     };
-    CHECK(std::fabs(level(0.0)) < 0.11);
+    CHECK(std::fabs(level(0.0)) < 0.17);
     CHECK(level(10.0) - level(0.0) == approx(db_of_power(0.5)).epsilon(0.02));
 }
 

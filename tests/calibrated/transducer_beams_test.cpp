@@ -82,7 +82,7 @@ TEST_CASE("pulse: the half-power widths of its spline, as the documents have the
     for (const Width& w : {Width{0.1, 0.47}, Width{0.5, 0.52}, Width{1.0, 0.67}, Width{1.5, 1.13},
                            Width{2.0, 1.87}, Width{3.0, 2.87}, Width{5.0, 4.92}}) {
         CAPTURE(w.pulse);
-        const RangeTaps taps = range_taps(w.pulse, -30.0, false);
+        const RangeTaps taps = range_taps(w.pulse, -30.0);
         const auto power_at = [&](double x) {
             const auto k = static_cast<std::size_t>(x);
             const float* const tap = taps.taps.data() + taps.reach + k;

@@ -145,8 +145,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const ReceiverConfig& receiver = instrument.receiver;
     CalibratedModel model;
     model.instrument = instrument;
-    model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
-    model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
+    model.amplitude_taps = range_taps(resolution_bins, side_lobe_db);
+    model.power_taps = power_taps(model.amplitude_taps);
     const std::vector<float> noise_filter = noise_taps(resolution_bins, side_lobe_db);
     model.speckle = instrument.speckle.mode;
     model.sound_speed_m_s = water.sound_speed_m_s;

@@ -50,11 +50,10 @@ std::vector<double> solve_triangles(std::vector<double> b) {
 
 }  // namespace
 
-RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) {
+RangeTaps range_taps(double resolution_bins, double side_lobe_db) {
     const LineArray band = line_array(unit_width, side_lobe_db);
     const auto response = [&](double bins) {
-        const double h = line_pattern(band, bins / resolution_bins * unit_width);
-        return squared ? h * h : h;
+        return line_pattern(band, bins / resolution_bins * unit_width);
     };
     RangeTaps out;
     out.reach = reach_of(resolution_bins);
@@ -68,27 +67,31 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         }
         products.push_back(sum);
     }
-    double sum = 0.0;
     double power = 0.0;
     double neighbours = 0.0;
     const std::vector<double> taps = solve_triangles(std::move(products));
     for (std::size_t m = 0; m < taps.size(); ++m) {
-        sum += taps[m];
         power += taps[m] * taps[m];
         if (m > 0) neighbours += taps[m] * taps[m - 1];
     }
     // A spline cannot follow a pulse as short as a bin, so it is scaled to the pulse's energy.
-    const double spline_energy = squared ? sum : 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
+    const double spline_energy = 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
     double energy = 0.0;
     for (int k = -steps * out.reach; k <= steps * out.reach; ++k) {
         const double h = response(static_cast<double>(k) / steps);
-        energy += (squared ? h : h * h) / steps;
+        energy += h * h / steps;
     }
-    const double scale = squared ? energy / spline_energy : std::sqrt(energy / spline_energy);
+    const double scale = std::sqrt(energy / spline_energy);
     for (const double tap : taps)
         out.taps.push_back(static_cast<float>(scale * tap));
-    out.scalloping_gain = static_cast<float>((2.0 / 3.0 * power + 1.0 / 3.0 * neighbours) / power);
+    out.scalloping_gain = static_cast<float>(spline_energy / power);
     return out;
+}
+
+RangeTaps power_taps(RangeTaps amplitudes) {
+    for (float& tap : amplitudes.taps)
+        tap *= amplitudes.scalloping_gain * tap;
+    return amplitudes;
 }
 
 std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {

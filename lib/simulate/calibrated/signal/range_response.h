@@ -19,8 +19,12 @@ struct RangeTaps {
 };
 
 /// The pulse after compression, of half-power width `resolution_bins`; a band with a taper has the
-/// shape of the beam of a line array with the same taper. `squared`: of powers, not of amplitudes.
-RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared);
+/// shape of the beam of a line array with the same taper.
+RangeTaps range_taps(double resolution_bins, double side_lobe_db);
+
+/// The taps that give mean powers, where those of amplitudes give amplitudes that are drawn by
+/// cell: their squares, with the correction.
+RangeTaps power_taps(RangeTaps amplitudes);
 
 /// The filter along range that gives white noise the spectrum of noise after the matched filter of
 /// this pulse: taps at whole bins from -reach to reach, with a sum of squares of 1. If S is the
