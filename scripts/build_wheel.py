@@ -72,11 +72,9 @@ def described():
     python = "cp" + sysconfig.get_config_var("py_version_nodot")
     tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
     script, target = next(iter(project["scripts"].items()))
-    return f"sonarsim-{version}", tag, {
-        "METADATA": metadata_of(project, version),
+    return f"sonarsim-{version}", tag, {"METADATA": metadata_of(project, version),
         "WHEEL": f"Wheel-Version: 1.0\nGenerator: sonarsim\nRoot-Is-Purelib: false\nTag: {tag}\n",
-        "entry_points.txt": f"[console_scripts]\n{script} = {target}\n",
-        "LICENSE": (ROOT / "LICENSE").read_text()}
+        "entry_points.txt": f"[console_scripts]\n{script} = {target}\n", "LICENSE": (ROOT / "LICENSE").read_text()}
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):

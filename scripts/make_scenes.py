@@ -44,11 +44,9 @@ def builders(cells: int, area: float) -> dict:
     """The files of every scene, by name, with the function that builds each."""
     return {
         "tank": {"tank.glb": tank.build},
-        "seafloor": {"seafloor.glb": lambda: seafloor.build(cells, area)},
-        "wreck": {"wreck.glb": wreck.build},
+        "seafloor": {"seafloor.glb": lambda: seafloor.build(cells, area)}, "wreck": {"wreck.glb": wreck.build},
         "close_bottom": {"close_bottom.glb": close_bottom.build, **close_bottom.OBJECTS},
-        "lifeboat": {"lifeboat.glb": lifeboat.build},
-        "bathymetry": {"bathymetry.tif": bathymetry.build},
+        "lifeboat": {"lifeboat.glb": lifeboat.build}, "bathymetry": {"bathymetry.tif": bathymetry.build},
         "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
         "basin": {"basin_floor.tif": sediments.basin_decibels},
         "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},

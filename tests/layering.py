@@ -69,15 +69,10 @@ OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2
 CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?(?: :[^;{]*)? \{")
 # Which folder alone may use a library.
 OWNERS = {
-    "yaml-cpp/": "mission",
-    "tiny_gltf.h": "scene",
-    "assimp/": "apps",
-    "OpenImageIO/": "apps",
-    "libdeflate.h": "format",
-    "nettle/": "core",
-    "embree3/": "visibility",
-    "embree4/": "visibility",
-    "CLI/": "apps",
+    "yaml-cpp/": "mission", "tiny_gltf.h": "scene",
+    "assimp/": "apps", "OpenImageIO/": "apps",
+    "libdeflate.h": "format", "nettle/": "core",
+    "embree3/": "visibility", "embree4/": "visibility", "CLI/": "apps",
 }
 
 

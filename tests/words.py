@@ -17,14 +17,10 @@ FRAGMENT = re.compile(r"(of|by|that of|those|what|whether|how|where|whose|which|
 # The same within a comment, after a full stop, and in pages at the begin of a line.
 INVERSION = re.compile(r"(?:(?<=\. )|^)(Of|That of|Those of|By how|In which|Whether|What is)\b")
 BANNED = {
-    r"there and back": "two-way",
-    r"by way of": "over, through or by",
-    r"told\b": "reported, named or warned",
-    r"heard?\b": "insonified, received or visible",
-    r"lit\b": "occupied or insonified",
-    r"by so much": "the quantity",
-    r"sees? anew": "again",
-    r"makes? (?:it|them) anew": "again",
+    r"there and back": "two-way", r"by way of": "over, through or by",
+    r"told\b": "reported, named or warned", r"heard?\b": "insonified, received or visible",
+    r"lit\b": "occupied or insonified", r"by so much": "the quantity",
+    r"sees? anew": "again", r"makes? (?:it|them) anew": "again",
     r"goes on from there": "continues",
     r"is no (?:\.npy|archive|dataset|file|PNG|shard)\b": "is not a, or cannot be",
     r"doubt(?:s|ful|ed)?\b": "warning",

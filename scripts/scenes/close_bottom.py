@@ -59,8 +59,7 @@ def flocs():
         azimuth = math.radians(draw(-28, 28))
         depression = math.radians(35 + draw(-5, 5))
         centre = (distance * math.cos(azimuth) * math.cos(depression),
-                  distance * math.sin(azimuth) * math.cos(depression),
-                  -distance * math.sin(depression))
+                  distance * math.sin(azimuth) * math.cos(depression), -distance * math.sin(depression))
         add_sphere(part, centre, (FLOC_M, FLOC_M, FLOC_M), 1)
     return [part]
 

@@ -60,14 +60,10 @@ def write_glb(path, parts):
              "material": names.index(material)} for material, numbers in part.indices.items()]})
     document = {
         "asset": {"version": "2.0", "generator": "sonarsim make_scenes.py"},
-        "scene": 0,
-        "scenes": [{"nodes": list(range(len(parts)))}],
-        "nodes": [{"name": part.name, "mesh": i} for i, part in enumerate(parts)],
-        "meshes": meshes,
+        "scene": 0, "scenes": [{"nodes": list(range(len(parts)))}],
+        "nodes": [{"name": part.name, "mesh": i} for i, part in enumerate(parts)], "meshes": meshes,
         "materials": [{"name": name, "doubleSided": True} for name in names],
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": len(binary)}],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}],
     }
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)

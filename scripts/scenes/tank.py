@@ -33,8 +33,7 @@ def build():
         made("crate", "wood", (add_box, (3.3, -2.2, 0.2), (0.6, 0.4, 0.4), -15)),
         # 30 cm across, hanging on a wire from the surface.
         made("sphere", "steel", (add_sphere, (2.7, 0.4, 1.4), (0.15, 0.15, 0.15), 3),
-             (add_cylinder, (2.7, 0.4, 1.55), (2.7, 0.4, DEPTH), 0.004, 6)),
-        ladder(),
+             (add_cylinder, (2.7, 0.4, 1.55), (2.7, 0.4, DEPTH), 0.004, 6)), ladder(),
         # A tray of sand with a stone on it.
         made("sand_bed", "sand", (add_box, (1.6, -2.1, 0.05), (1.2, 1.0, 0.1))),
         made("stone", "rock", (add_sphere, (1.7, -2.1, 0.2), (0.2, 0.16, 0.14), 2, lambda p: 1 + 0.3 * noise3(p, 0.8, 7)))]

@@ -119,10 +119,8 @@ class Python(Sandbox):
 
 # A text that stands in the small mission, what it becomes, and the key at which it is wrong.
 WRONG = (
-    ("seed: 7", "sead: 7", "sead"),
-    ("seed: 7", "seed: -1", "seed"),
-    ("seed: 7", "seed: 7\nengine: cubes", "engine"),
-    ("seed: 7", "seed: 7\nwater: 997", "water"),
+    ("seed: 7", "sead: 7", "sead"), ("seed: 7", "seed: -1", "seed"),
+    ("seed: 7", "seed: 7\nengine: cubes", "engine"), ("seed: 7", "seed: 7\nwater: 997", "water"),
     ("seed: 7", "seed: 7\nclasses: {nodes: a, class: b}", "classes"),
     ("  materials: materials.csv\n", "", "scene"),
     ("  materials: materials.csv\n", "  materials: materials.csv\n  objects: [{name: hull}]\n", "objects"),
@@ -133,10 +131,8 @@ WRONG = (
     ("kind: imaging", "kind: imaging\n    mount: {rpy_deg: [0, 0]}", "rpy_deg"),
     ("range_max_m: 6", "range_max_m: 0", "range_max_m"),
     ("range_bins: 48", "range_bins: 48.5", "range_bins"),
-    ("range_bins: 48", "range_bins: 8193", "range_bins"),
-    ("  fls:", "  fore ward:", "fore ward"),
-    ("image: true", "image: 1", "image"),
-    ("image: true", "labels: [share, share]", "labels"),
+    ("range_bins: 48", "range_bins: 8193", "range_bins"), ("  fls:", "  fore ward:", "fore ward"),
+    ("image: true", "image: 1", "image"), ("image: true", "labels: [share, share]", "labels"),
 )
 
 

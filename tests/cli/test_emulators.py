@@ -69,8 +69,7 @@ class Processor(Sandbox):
     def test_the_same_bytes(self):
         """A shard by the processor and the rest by the emulator make the dataset of one run, arrays of floats included, whose
         last bit an image of integers may hide; also where faces coincide: two boxes in one place stand on a floor."""
-        nodes = [{"name": "floor", "mesh": 0}] + [
-            {"name": name, "mesh": 1, "translation": [x, 0.5, y]}
+        nodes = [{"name": "floor", "mesh": 0}] + [{"name": name, "mesh": 1, "translation": [x, 0.5, y]}
             for name, x, y in (("box", 4.03, 0.07), ("twin", 4.03, 0.07), ("other", 2.5, 1))]
         self.write("box.gltf", gltf(nodes, [sheet_mesh(), (*box_mesh()[:2], 1)], ("Concrete", "steel")))
         head = SCENE.split("scene:")[0] + "scene: {file: box.gltf, materials: materials.csv}\n"

@@ -37,8 +37,7 @@ class Objects(Composed):
         """World (x, y, z) is (x, z, -y) in glTF; a turn about the world's z is one about glTF's y."""
         half = math.sqrt(0.5)
         self.write("whole.gltf", gltf(
-            [{"name": "floor", "mesh": 0},
-             {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
+            [{"name": "floor", "mesh": 0}, {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
              {"name": "b", "mesh": 1, "translation": [6.5, 0.75, 0.5], "scale": [1.5, 1.5, 1.5]},
              {"name": "c", "mesh": 1, "translation": [5.0, 0.625, 2.5],
               "rotation": [0, half, 0, half]}], [sheet_mesh(), box_mesh()]))

@@ -92,12 +92,10 @@ BEARINGS = "bearing_first_deg: 14\nbearing_last_deg: -14\n"
 # recording.yaml, a whole file, and the lengths to which it may be cut off and still be whole.
 FORMATS = {
     "oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
-    "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2,
-            {1024 + len(xtf_ping())}),
+    "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2, {1024 + len(xtf_ping())}),
     "didson": ("kind: imaging\nlogs: FILE\nsound_speed_m_s: 1480\n" + BEARINGS, didson(), {len(didson(frames=1))}),
     "aris": ("kind: imaging\nlogs: FILE\n" + GAMMA + BEARINGS, aris(), {len(aris(frames=1))}),
     "ping360": ("kind: scanning\nlogs: FILE\nsound_speed_m_s: 1500\nhead_first_deg: 90\n" + GAMMA,
                 ping360(100) + ping360(104, is_auto=True), {len(ping360()), len(ping360()) + 1}),
-    "ek60": ("kind: echosounder\nlogs: FILE\n", simrad(b"CON0") + ek60() * 2,
-             {len(simrad(b"CON0") + ek60())}),
+    "ek60": ("kind: echosounder\nlogs: FILE\n", simrad(b"CON0") + ek60() * 2, {len(simrad(b"CON0") + ek60())}),
 }

@@ -9,8 +9,7 @@ from sonarsim import import_holoocean
 SENSORS = [
     {"sensor_type": "DVLSensor"},
     {"sensor_type": "ImagingSonar", "sensor_name": "fls", "socket": "SonarSocket", "Hz": 10,
-     "location": [0.1, 0, 0], "rotation": [0, 10, 0],
-     "configuration": {
+     "location": [0.1, 0, 0], "rotation": [0, 10, 0], "configuration": {
          "Azimuth": 60, "Elevation": 12, "RangeMin": 0.5, "RangeMax": 6, "RangeBins": 48, "AzimuthBins": 32,
          "AddSigma": 0.1, "MultCov": 0.04, "RangeSigma": 0.05, "ScaleNoise": True, "MultiPath": True,
          "ClusterSize": 4, "AzimuthStreaks": -1, "WaterDensity": 1025, "InitOctreeRange": 40}},

@@ -166,8 +166,7 @@ class Mission:
                              f"from 0 to {len(self.poses) - 1}")
         return self._make(number, index)
 
-    def pings(self, sensor: str | None = None, *, threads: int = 1,
-              shard: tuple[int, int] = (0, 1)) -> Iterator[Ping]:
+    def pings(self, sensor: str | None = None, *, threads: int = 1, shard: tuple[int, int] = (0, 1)) -> Iterator[Ping]:
         """Iterates over the pings of all poses and variants, in the order of the poses.
 
         `sensor`: only the pings of this sensor. `threads`: the number of pings that are made at a time;

@@ -42,8 +42,7 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
     """
 
     def __init__(self, mission: str | os.PathLike[str] | Mapping[str, Any],
-                 set: Mapping[str, Any] | None = None, *, sensor: str | None = None,
-                 names: tuple[str, ...] = ("image",),
+                 set: Mapping[str, Any] | None = None, *, sensor: str | None = None, names: tuple[str, ...] = ("image",),
                  transform: Callable[[sonarsim.Ping], Any] | None = None, threads: int = 1,
                  shard: tuple[int, int] = (0, 1), paths_from: str | os.PathLike[str] | None = None):
         super().__init__()

@@ -69,8 +69,7 @@ def tube(points, radius, sides=8, loop=False, flat=1.0):
         u = [a - lean * b for a, b in zip(u, along)]
         length = math.hypot(*u)
         u = [c / length for c in u]
-        v = [along[1] * u[2] - along[2] * u[1], along[2] * u[0] - along[0] * u[2],
-             along[0] * u[1] - along[1] * u[0]]
+        v = [along[1] * u[2] - along[2] * u[1], along[2] * u[0] - along[0] * u[2], along[0] * u[1] - along[1] * u[0]]
         r = radius[k] if isinstance(radius, list) else radius
         first = len(vertices)
         vertices += [tuple(p[i] + r * (c * u[i] + flat * s * v[i]) for i in range(3)) for c, s in circle(sides)]

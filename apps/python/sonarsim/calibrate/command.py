@@ -30,8 +30,7 @@ def result_of(name, pings, figures, notes, estimates):
         return None if figure.predicted is None else {
             "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
     fitted = {key.split(".")[-1] for key in estimates}      # perhaps after a note that it is not
-    notes = [note for note in notes if not ("that of the start is kept" in note and
-                                            note.split(":")[0].split(".")[-1] in fitted)]
+    notes = [one for one in notes if "the start is kept" not in one or one.split(":")[0].split(".")[-1] not in fitted]
     changed = sum(a.measured.low > b.measured.high or a.measured.high < b.measured.low for _, a, b in figures)
     if 5 * changed > len(figures):
         notes = [*notes, f"{changed} of {len(figures)} figures of the judged pings lie outside the intervals of the "

@@ -57,8 +57,7 @@ def figures_of(recording, instrument, level_db, start, fit):
     statistics = receiver_statistics(receiver)
     law = stated_law(receiver, full_value_of(recording), statistics)
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],
-                  start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
-                  fit.noise and fit.noise.used)
+                  start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0, fit.noise and fit.noise.used)
     patches, noise_part, echoes = classified(recording, law, noise)
     to_shape, out = 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(

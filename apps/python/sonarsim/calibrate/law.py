@@ -41,8 +41,7 @@ class Law:
 
 def floored(values, full_value, offset=0.0):
     """Values with the offset; those below half a step count as half a step."""
-    return np.maximum(np.asarray(values, float) + offset * full_value,
-                      0.5 if full_value > 15.0 else full_value / 131070.0)
+    return np.maximum(np.asarray(values, float) + offset * full_value, 0.5 if full_value > 15.0 else full_value / 131070.0)
 
 
 def full_value_of(recording):

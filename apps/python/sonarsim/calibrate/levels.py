@@ -95,9 +95,8 @@ def numbers_of(pairs, measured, first, law, scale, known):
 
 def is_wide(name, number):
     """True for a number that the levels do not show. The key tvg_log has limits."""
-    if name == "tvg_log":
-        return not 0.0 <= number.value <= 60.0 or number.high - number.low > WIDEST * number.value
-    return number.high - number.low > WIDEST_DB
+    is_out = name == "tvg_log" and not 0.0 <= number.value <= 60.0
+    return is_out or number.high - number.low > (WIDEST * number.value if name == "tvg_log" else WIDEST_DB)
 
 
 def fit_levels(windows, start, fit, mission=None, settings=()):

@@ -29,13 +29,11 @@ def usual_mission(kind, range_m, view=None, bottom="sand"):
     views = [(view[0] / range_m, view[1])] * 2 if view else [(share, np.arcsin(share / 0.75))
                                                              for share in (0.15, 0.23, 0.32, 0.4)]
     rocks = {"rocks": {"density_per_m2": 10.0 / range_m**2, "diameter_m": [0.02 * range_m, 0.1 * range_m], "material": "rock"}}
-    return {"name": "usual", "seed": 1,
-            "scene": {"materials": "materials.csv", "seabed": {
+    return {"name": "usual", "seed": 1, "scene": {"materials": "materials.csv", "seabed": {
                 "cell_m": range_m / 200.0, "material": bottom, **({} if view else rocks)}},
             "trajectory": {"speed_m_s": 0.1 * range_m, "rate_hz": 1 if kind == "imaging" else 8, "waypoints": [
                 {"position_m": [0.4 * k * range_m, 0, float(share * range_m)], "rpy_deg": [0, float(np.degrees(pitch)), 0]}
-                for k, (share, pitch) in enumerate(views)]},
-            "sensors": {"sonar": {}}}
+                for k, (share, pitch) in enumerate(views)]}, "sensors": {"sonar": {}}}
 
 
 def view_of(recording, start):

@@ -50,8 +50,7 @@ def zone_figures(images, grid, name, zone):
     rules = [("variation of amplitude", "tenth", speckle.variation), ("Weibull shape", "tenth", speckle.weibull_shape),
              ("inverse K shape", "correlation", speckle.inverse_k_shape),
              ("skewness of logarithms", "skewness", speckle.skewness),
-             *((f"correlation over {lag} {unit}", "correlation",
-                functools.partial(speckle.correlation, lag=lag, axis=axis))
+             *((f"correlation over {lag} {unit}", "correlation", functools.partial(speckle.correlation, lag=lag, axis=axis))
                for axis, unit in ((1, "ranges"), (2, across)) for lag in LAGS),
              ("correlation to the next ping", "correlation", None)]
     basis, before = speckle.trend_basis(grid.size), None

@@ -97,8 +97,7 @@ def read_description(path):
     if len(named) != 1 or kind not in SOURCES[named[0]]:
         section.refuse(f"of the kind {kind} needs one of the keys {', '.join(k for k in SOURCES if kind in SOURCES[k])}, "
                        f"and has {' and '.join(named) or 'none'}")
-    own = types.SimpleNamespace(
-        refuse=section.refuse, kind=kind, source=named[0], files=section.files(named[0]), law=None,
+    own = types.SimpleNamespace(refuse=section.refuse, kind=kind, source=named[0], files=section.files(named[0]), law=None,
         spread=section.choice("spread", ("angle", "sine"), "angle"), full_value_is_auto=False,
         bearings_deg=section.numbers("bearings_deg", *ANGLE),
         **{key: section.number(key, *limits) for key, limits in NUMBERS.items()})

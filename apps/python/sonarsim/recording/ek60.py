@@ -23,8 +23,7 @@ def read(data, max_pings, own):
         raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
                          "`frequency_hz`")
     pings = [ping for ping in pings if ping["frequency_hz"] == near[0]][:max_pings]
-    recording = timed_recording(
-        "echosounder", [ping["steps"][:, None] for ping in pings], own,
+    recording = timed_recording("echosounder", [ping["steps"][:, None] for ping in pings], own,
         [(ping["offset"] * ping["sample_s"], ping["sample_s"]) for ping in pings], pings[0]["sound_speed_m_s"],
         law=decibel_law(own, RANGE_DB, RANGE_DB), frequency_hz=near[0])
     recording.values = np.maximum(np.float32(DB_PER_STEP) * recording.values + np.float32(RANGE_DB), np.float32(0.0))
