@@ -51,9 +51,8 @@ JobStatus read_status(const std::vector<fs::path>& folders) {
         for (const fs::path& folder : folders) {
             if (fs::exists(folder / name / description_name)) begun.push_back(folder / name);
         }
-        if (begun.empty()) continue;
-        add_dataset(begun, status);
-        ++found;
+        if (!begun.empty()) add_dataset(begun, status);
+        found += begun.empty() ? 0 : 1;
     }
     // Variants that have not begun count as the mean of the others.
     if (found > 0) status.all_pings = status.all_pings * status.variants / found;

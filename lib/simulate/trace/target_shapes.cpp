@@ -259,16 +259,14 @@ class TargetFinder {
         out_.placed.push_back({*number, instance, body, T_local_shape, slope});
     }
 
-    bool is_repeated(const TargetShape& shape) {
-        const Eigen::Vector3f& c = shape.centre;
-        const auto [first, is_new] =
-            known_.try_emplace({c.x(), c.y(), c.z(), shape.radius_m}, &shape - out_.shapes.data());
-        return !is_new && out_.shapes[first->second].vertices == shape.vertices;
+    bool is_repeated(const TargetShape& shape) const {
+        return std::ranges::any_of(out_.shapes, [&](const TargetShape& other) {
+            return &other != &shape && other.vertices == shape.vertices;
+        });
     }
 
     const Scene& scene_;
     TargetShapes& out_;
-    std::map<std::array<float, 4>, std::ptrdiff_t> known_;  ///< shapes at rest, by their balls
 };
 
 }  // namespace

@@ -50,8 +50,6 @@ class ColumnPieces {
     const PieceBlock& block_of(int i) const { return blocks_[i / lanes]; }
 
     std::uint32_t triangle(int i) const { return block_of(i).triangle[i % lanes]; }
-    float from(int i) const { return block_of(i).from[i % lanes]; }
-    float to(int i) const { return block_of(i).to[i % lanes]; }
 
     PieceEnd low(int i, float u) const {
         const PieceBlock& p = block_of(i);

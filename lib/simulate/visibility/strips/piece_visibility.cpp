@@ -24,7 +24,7 @@ constexpr float same_depth = 2e-6F;
 
 }  // namespace
 
-void PieceVisibility::begin(int i, int first) {
+void PieceVisibility::begin(int i) {
     const PieceBlock& p = pieces_.block_of(i);
     const int k = i % lanes;
     piece_ = i;
@@ -38,8 +38,6 @@ void PieceVisibility::begin(int i, int first) {
     w_min_ = p.w_min[k] + eps_;
     w_max_ = p.w_max[k] - eps_;
     q_min_ = p.q_min[k] * (1.0F - same_depth);
-    if (first != none && first != i)
-        candidates_.push_back({first / lanes, 1U << static_cast<unsigned>(first % lanes)});
 }
 
 /// The rows whose bounds overlap the piece and which may be nearer.
@@ -74,8 +72,7 @@ bool PieceVisibility::find(float u, const VisibleInterval& whole) {
     const int k = piece_ % lanes;
     hidden_.clear();
     parts_.clear();
-    hidden_by_ = none;
-    whole_ = rest_ = whole;
+    rest_ = whole;
     u_ = u;
     q_w_ = p.q_w[k];
     q_0_ = p.q[k] + p.q_u[k] * (u - p.middle[k]) - q_w_ * p.w[k];
@@ -161,10 +158,6 @@ bool PieceVisibility::take(int j, VisibleInterval hidden, float nearer_low, floa
         (nearer_low <= 0.0F ? hidden.low_slope : hidden.high_slope) = slope;
         if (!(hidden.high > hidden.low)) return true;
     }
-    if (hidden.low <= whole_.low + eps_ && hidden.high >= whole_.high - eps_) {
-        hidden_by_ = j;
-        return false;
-    }
     if (hidden.low <= rest_.low + eps_) {
         if (hidden.high > rest_.low) {
             rest_.low = hidden.high;
@@ -179,21 +172,6 @@ bool PieceVisibility::take(int j, VisibleInterval hidden, float nearer_low, floa
         hidden_.push_back(hidden);
     }
     return rest_.high - rest_.low > eps_;
-}
-
-/// Both pieces are convex, so the corners decide.
-bool PieceVisibility::covers(int j, int i, float corner_u, float corner_w, float from,
-                             float to) const {
-    if (!(pieces_.from(j) <= from && pieces_.to(j) >= to)) return false;
-    const auto hides = [&](float u, float w) {
-        const float eps = same_w * (1.0F + std::fabs(w));
-        return w >= pieces_.low(j, u).w - eps && w <= pieces_.high(j, u).w + eps &&
-               pieces_.q_at(j, u, w) > pieces_.q_at(i, u, w) * (1.0F - same_depth);
-    };
-    for (const float u : {from, to}) {
-        if (!hides(u, pieces_.low(i, u).w) || !hides(u, pieces_.high(i, u).w)) return false;
-    }
-    return !(corner_u > from && corner_u < to) || hides(corner_u, corner_w);
 }
 
 }  // namespace sonarsim

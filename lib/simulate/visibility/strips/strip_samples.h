@@ -36,24 +36,18 @@ struct VisibleInterval {
 /// Finds what nearer pieces of the same column leave of a piece.
 class PieceVisibility {
   public:
-    static constexpr int none = -1;
-
     /// `pieces` must outlive it.
     explicit PieceVisibility(const ColumnPieces& pieces) : pieces_(pieces) {}
 
     /// Begins with piece `i`. Pieces that may hide some of it are found as they are needed, and
-    /// kept for further lines. `first`: a piece that is examined before the others, or `none`.
-    void begin(int i, int first);
+    /// kept for further lines.
+    void begin(int i);
 
     /// The visible parts of the piece within `whole`, an interval on the line u. False: none.
     bool find(float u, const VisibleInterval& whole);
 
     /// The parts that the last find() found, ascending.
     const std::vector<VisibleInterval>& parts() const { return parts_; }
-    /// The piece that alone hid all of it in the last find(), or `none`.
-    int hidden_by() const { return hidden_by_; }
-    /// True if piece `j` hides all of piece `i` between two u.
-    bool covers(int j, int i, float corner_u, float corner_w, float from, float to) const;
 
   private:
     /// Pieces of a block, by bits.
@@ -72,7 +66,6 @@ class PieceVisibility {
     std::vector<Candidate> candidates_;
     std::vector<VisibleInterval> hidden_, parts_;
     int piece_ = 0;
-    int hidden_by_ = none;
     std::size_t next_group_ = 0;
     unsigned blocks_left_ = 0;
     float eps_ = 0.0F;
@@ -81,7 +74,7 @@ class PieceVisibility {
     float u_ = 0.0F;
     float q_0_ = 0.0F;  ///< q of the piece's plane at w = 0
     float q_w_ = 0.0F;
-    VisibleInterval whole_{}, rest_{};
+    VisibleInterval rest_{};
 };
 
 /// A visible part of a piece between two u.

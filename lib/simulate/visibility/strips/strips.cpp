@@ -11,8 +11,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::uint32_t no_triangle = 0xFFFFFFFFU;
-
 // Steps of false position towards the place where a line crosses the border of the view.
 constexpr int crossing_steps = 3;
 
@@ -25,31 +23,14 @@ class ColumnScan {
         : triangles_(triangles),
           frame_(frame),
           visibility_(pieces_),
-          samples_(clusters, frame, rule, pieces_, out),
-          hider_(triangles.size(), no_triangle),
-          piece_of_(triangles.size(), 0),
-          column_of_(triangles.size(), -1) {}
+          samples_(clusters, frame, rule, pieces_, out) {}
 
-    /// Adds the samples of a column between two u, from its triangles. Columns are scanned once
-    /// each.
+    /// Adds the samples of a column between two u, from its triangles.
     void scan(std::span<const std::uint32_t> column_triangles, float left, float right) {
         if (column_triangles.empty()) return;
-        const int column = ++column_;
         pieces_.gather(triangles_, column_triangles, left, right, frame_.reach_w(left, right));
         for (int i = 0; i < pieces_.count(); ++i) {
-            piece_of_[pieces_.triangle(i)] = i;
-            column_of_[pieces_.triangle(i)] = column;
-        }
-        for (int i = 0; i < pieces_.count(); ++i) {
-            const std::uint32_t hider = hider_[pieces_.triangle(i)];
-            int first = PieceVisibility::none;
-            if (hider != no_triangle && column_of_[hider] == column) {
-                const StripTriangle& t = triangles_[pieces_.triangle(i)];
-                first = piece_of_[hider];
-                if (visibility_.covers(first, i, t.u1, t.w1, pieces_.from(i), pieces_.to(i)))
-                    continue;
-            }
-            visibility_.begin(i, first);
+            visibility_.begin(i);
             add_piece(i);
         }
     }
@@ -142,11 +123,7 @@ class ColumnScan {
         const float u = 0.5F * (from + to);
         const VisibleInterval whole = whole_at(i, u);
         if (!(whole.high > whole.low)) return;
-        if (!visibility_.find(u, whole)) {
-            if (const int j = visibility_.hidden_by(); j != PieceVisibility::none)
-                hider_[pieces_.triangle(i)] = pieces_.triangle(j);
-            return;
-        }
+        if (!visibility_.find(u, whole)) return;
         for (const VisibleInterval& part : visibility_.parts())
             samples_.add({t, i, from, u, to, part});
     }
@@ -156,10 +133,6 @@ class ColumnScan {
     ColumnPieces pieces_;
     PieceVisibility visibility_;
     StripSamples samples_;
-    int column_ = 0;                    ///< number of columns so far
-    std::vector<std::uint32_t> hider_;  ///< for each triangle, the one that hid its last piece
-    std::vector<int> piece_of_;         ///< for each triangle, in its last column
-    std::vector<int> column_of_;
 };
 
 /// Adds the samples of a frame's beams.
