@@ -145,6 +145,9 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
     const std::optional<PingError> worst = error->worst();
     if (!worst) return unknown > 0.0 ? result_line("", "error " + limit) : "";
     const auto is_measured = [](const PingError& ping) { return ping.relative_l1.has_value(); };
+    const auto is_unknown = [&](const PingError& ping) {
+        return !is_measured(ping) && ping.noise > 0.0;
+    };
     const auto measured = std::ranges::count_if(error->pings, is_measured);
     std::string text =
         fmt::format("error {} % on average and {} % at worst in {} pings, goal {} %",
@@ -156,7 +159,8 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
     if (by_finer_image > 0)
         text += fmt::format("; {} by the change to a finer goal", by_finer_image);
     if (unknown > 0.0)
-        text += fmt::format("; in {} more it {}", std::ssize(error->pings) - measured, limit);
+        text += fmt::format("; in {} more it {}", std::ranges::count_if(error->pings, is_unknown),
+                            limit);
     return result_line("", text);
 }
 

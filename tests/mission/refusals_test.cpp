@@ -65,8 +65,8 @@ TEST_CASE("kinds of sonars, engines and places") {
          {"sidescan, noise: {range_lambda_m: 0.1}",
           "3:38: a side-scan sonar has no range noise: range_lambda_m must be 0"},
          {"sidescan, moves_in_ping: true",
-          "3:46: moves_in_ping of a sonar with one beam needs model: calibrated; the paper's beams "
-          "have no pattern that turns during a ping"}},
+          "3:46: moves_in_ping of a side-scan, echosounder or scanning sonar needs model: "
+          "calibrated; the paper's beams have no pattern that turns during a ping"}},
         "}}\n");
     check_refused(
         smallest_mission,

@@ -156,8 +156,8 @@ def mission_of(top, arguments):
                 "trajectory of your own", "the world is a level of the game engine: export it, or name another scene"]
     say("\nsonarsim import-holoocean: ".join(remarks))
     def beside(path):
-        given = path in (arguments.scene, arguments.materials) and arguments.out and not os.path.isabs(path)
-        return os.path.relpath(path, os.path.dirname(arguments.out) or ".") if given else path
+        is_given = path in (arguments.scene, arguments.materials) and arguments.out and not os.path.isabs(path)
+        return os.path.relpath(path, os.path.dirname(arguments.out) or ".") if is_given else path
     named = {"name": re.sub(NOT_IN_NAMES, "_", take("", top, "name", str))[:60] or "sonar"} if "name" in top else {}
     return named | {"#": remarks, "water": water,
             "scene": {"file": beside(arguments.scene or "scene.glb"), "materials": beside(arguments.materials or "materials.csv")},

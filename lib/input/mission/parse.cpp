@@ -183,8 +183,8 @@ void apply_override(YamlNode& root, const std::string& setting) {
     const Location where{source};
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) throw InputError(where, usage_of_set);
-    if (setting.find(" #", equals) < setting.size() &&
-        setting.find_first_of("'\"", equals) > setting.size())
+    const std::size_t comment = std::min(setting.find(" #", equals), setting.find("=#", equals));
+    if (comment < setting.size() && setting.find_first_of("'\"[{", equals) != equals + 1)
         throw InputError(where, "a text with ' #', which begins a comment of YAML, needs quotes");
     assign(root, split_path(std::string_view(setting).substr(0, equals), where, usage_of_set),
            read_document(std::string_view(setting).substr(equals + 1), source, Lines::none));

@@ -259,8 +259,8 @@ void describe(auto& v, SonarConfig& c) {
         v.section("noise", c.noise, "the random terms of the paper's model");
         v.section("streaks", c.streaks, "azimuth streaks of the paper's model");
         v.require(!c.moves_in_ping || keys.azimuth_bins, {"moves_in_ping", "model"},
-                  "moves_in_ping of a sonar with one beam needs model: calibrated; the paper's beams "
-                  "have no pattern that turns during a ping");
+                  "moves_in_ping of a side-scan, echosounder or scanning sonar needs model: "
+                  "calibrated; the paper's beams have no pattern that turns during a ping");
     }
     v.require(keys.range_noise || c.noise.range_lambda_m == 0.0, {"noise"},
               "a side-scan sonar has no range noise: range_lambda_m must be 0");

@@ -47,7 +47,7 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const Assembly& assembly,
                                                          const VisibilityEngine& engine);
 
-/// For dataset.json: mean, worst, and every ping with the noise of its reference; null: unknown.
+/// For dataset.json: mean, worst, and every ping with the noise of its reference; null: none.
 Json json_of(const std::optional<MeasuredError>& error);
 
 /// A warning for each sonar with a measured error above the mission's goal, with the key to change.

@@ -18,7 +18,7 @@ struct JobStatus {
     std::size_t variants = 0;           ///< 0: a mission without variants
     std::size_t complete_variants = 0;  ///< the dataset itself counts as one
     std::uint64_t pings = 0;            ///< finished; of all datasets that are begun
-    std::uint64_t all_pings = 0;
+    std::uint64_t all_pings = 0;        ///< variants that have not begun count as the mean
     bool running = false;  ///< a run holds a lock in one of the folders
 
     bool complete() const { return complete_variants == std::max<std::size_t>(variants, 1); }

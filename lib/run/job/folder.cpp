@@ -167,7 +167,7 @@ FolderState inspect_folder(const fs::path& folder, const Json& description,
     if (overwrite) return FolderState::fresh;
     std::string difference = difference_between(found, description);
     if (difference == another_mission) difference += mission_differences(folder, mission);
-    if (difference.empty() && found.contains("variant") != description.contains("variant"))
+    if (difference.empty() && found.contains("variant") && !description.contains("variant"))
         difference = "that is a variant of a mission; render that mission to resume it";
     if (!difference.empty()) refuse_folder(folder, "holds a dataset " + difference, or_overwrite);
     return found.value("complete", Json()) == true ? FolderState::complete

@@ -111,6 +111,7 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
 }
 
 void measure_errors(const PingSet& pings, const std::vector<Reference>& references, Trial& trial) {
+    std::vector<std::uint8_t> sees(references.size());
     in_parallel(references.size(), [&](std::size_t p) {
         const SonarAtPose then = pings.at_pose(trial.sonar, p);
         const Ping ping = direct_image(*then, pings.scene, *trial.engine,
@@ -119,12 +120,14 @@ void measure_errors(const PingSet& pings, const std::vector<Reference>& referenc
             image_error(ping.intensity, references[p].intensity, references[p].scored);
         trial.errors[p].relative_l1 = error_without_noise(ping.intensity, references[p]);
         trial.samples[p] = static_cast<double>(ping.counts.samples);
+        const auto is_bright = [](float echo) { return echo > 0.0F; };
+        sees[p] = std::ranges::any_of(references[p].intensity, is_bright) ||
+                  std::ranges::any_of(ping.intensity, is_bright);
     });
     // Pings that see nothing have no error.
     std::vector<ImageError> seen;
     for (std::size_t p = 0; p < references.size(); ++p) {
-        if (std::ranges::any_of(references[p].intensity, [](float echo) { return echo > 0.0F; }))
-            seen.push_back(trial.errors[p]);
+        if (sees[p] != 0) seen.push_back(trial.errors[p]);
     }
     if (!seen.empty()) trial.errors = std::move(seen);
 }

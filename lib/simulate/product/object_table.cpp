@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.h"
 
@@ -82,7 +83,6 @@ std::optional<double> level_around(const ObjectInPing& visible, const LevelMap& 
     return sum / static_cast<double>(bins);
 }
 
-/// The box around the visible footprints of each object that is no background, sensor frame.
 /// Extends a box by the line p + t e, |t| <= 1, where its range lies between two.
 void extend_by_line(const Eigen::Vector3f& p, const Eigen::Vector3f& e, float near_m, float far_m,
                     Eigen::AlignedBox3f& box) {
@@ -104,7 +104,8 @@ void extend_by_line(const Eigen::Vector3f& p, const Eigen::Vector3f& e, float ne
     box.extend(p + to * e);
 }
 
-/// The lines through the middles of samples are visible; their corners may not be.
+/// The box around the visible surface of each object that is no background, sensor frame. The lines
+/// through the middles of samples are visible; their corners may not be.
 std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects, const View& view,
                                                const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());

@@ -216,7 +216,8 @@ DetectedReturn detect_return(std::span<const double> beam) {
 float farthest_surface_m(const TracedPing& traced) {
     float farthest_m = 0.0F;
     for_each_received(traced, [&](const Sample& sample) {
-        farthest_m = std::max(farthest_m, arrival_range(sample.position));
+        farthest_m = std::max(farthest_m, arrival_range(sample.position) + sample.edge_u.norm() +
+                                              sample.edge_v.norm());
     });
     return farthest_m;
 }

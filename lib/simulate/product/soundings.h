@@ -42,7 +42,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
 /// bins, which suppresses single bright speckles, reaches half of its maximum.
 std::optional<int> first_return(std::span<const float> column);
 
-/// The range of the farthest surface in a ping, behind which lie water and multipath; 0: none.
+/// The range at which surface in a ping ends, behind which lie water and multipath; 0: none.
 float farthest_surface_m(const TracedPing& traced);
 
 /// A surface return detected in a beam: the run of bins [begin, end).

@@ -59,13 +59,14 @@ void echogram_row(std::span<const float> bins, double white, const StripFrame& f
 
 /// The slant range of the bottom's leading edge, the middle of its bin; null without surface.
 void measure_depth(const PingView& view, nlohmann::ordered_json& json) {
-    // A second bottom echo may be the brighter one.
+    // A second bottom echo may be the brighter one. Range noise delays echoes.
     const std::vector<double>& edges = view.sonar.range_edges_m;
-    const auto end = std::ranges::upper_bound(edges, farthest_surface_m(view.traced));
+    const float far_m = farthest_surface_m(view.traced);
+    const bool is_delayed = view.sonar.config.noise.range_lambda_m > 0.0;
+    const auto end = is_delayed ? edges.end() : std::ranges::upper_bound(edges, far_m);
     const auto bins = std::min<std::ptrdiff_t>(end - edges.begin(), view.ping.range_bins);
-    std::optional<double> depth_m;
-    if (const auto bin = first_return(std::span(view.ping.intensity).first(bins)))
-        depth_m = view.sonar.middle_m(*bin);
+    const auto bin = first_return(std::span(view.ping.intensity).first(far_m > 0.0F ? bins : 0));
+    const auto depth_m = bin ? std::optional(view.sonar.middle_m(*bin)) : std::nullopt;
     json["depth_m"] = number_or_null(depth_m);
 }
 

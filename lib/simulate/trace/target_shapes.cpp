@@ -69,6 +69,7 @@ bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTr
 struct JoinedTriangles {
     JoinedSets parts, regions, corners;
     bool closed = true;  ///< no edge has one triangle, three or more, or two that differ in winding
+    bool one_winding = true;  ///< edges of two triangles have them on both sides with one winding
 
     explicit JoinedTriangles(const TargetShape& shape)
         : parts(shape.triangles.size()),
@@ -84,7 +85,9 @@ struct JoinedTriangles {
                 ++end;
             const bool is_pair = end - k == 2;
             if (is_pair) join(shape, sides[k], sides[k + 1]);
-            closed = closed && is_pair && sides[k].forward != sides[k + 1].forward;
+            const bool differ = is_pair && sides[k].forward == sides[k + 1].forward;
+            one_winding = one_winding && !differ;
+            closed = closed && is_pair && !differ;
         }
     }
 
@@ -143,34 +146,22 @@ float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
     return turned2 > 1e-8F ? along / turned2 : 0.0F;
 }
 
-/// Sets the normals at corners: weighted means over the triangles that join smoothly there. Files
-/// may differ in the winding of neighbours; each counts with its normal on the triangle's side.
-void set_smooth_normals(TargetShape& shape, JoinedSets& corners) {
-    std::vector<Eigen::Vector3f> weighted;
-    std::vector<std::uint32_t> set_of;
+/// Sets the normals at corners: weighted means over the triangles that join smoothly there. Without
+/// `one_winding` each counts on the side of those before it.
+void set_smooth_normals(TargetShape& shape, JoinedSets& corners, bool one_winding) {
+    std::vector<Eigen::Vector3f> sum(3 * shape.triangles.size(), Eigen::Vector3f::Zero());
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         for (int k = 0; k < 3; ++k) {
-            weighted.push_back(weighted_normal(shape, shape.triangles[t], k));
-            set_of.push_back(corners.of(3 * t + k));
+            Eigen::Vector3f& at = sum[corners.of(3 * t + k)];
+            const Eigen::Vector3f one = weighted_normal(shape, shape.triangles[t], k);
+            at += (!one_winding && at.dot(one) < 0.0F ? -1.0F : 1.0F) * one;
         }
     }
-    const Groups sets = sort_into_groups(set_of, set_of.size());
-    const auto mean_at = [&](std::uint32_t corner, const Eigen::Vector3f& normal) {
-        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-        for (std::uint32_t k = sets.begin[set_of[corner]]; k < sets.begin[set_of[corner] + 1];
-             ++k) {
-            const Eigen::Vector3f& one = weighted[sets.items[k]];
-            if (one.dot(normal) < 0.0F)
-                sum -= one;
-            else
-                sum += one;
-        }
-        return sum.normalized();
-    };
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         TargetTriangle& triangle = shape.triangles[t];
         for (int k = 0; k < 3; ++k) {
-            const Eigen::Vector3f mean = mean_at(3 * t + k, triangle.normal);
+            Eigen::Vector3f mean = sum[corners.of(3 * t + k)].normalized();
+            if (!one_winding && mean.dot(triangle.normal) < 0.0F) mean *= -1.0F;
             // The sides of a cone have no common normal at its tip.
             const bool has_mean = mean.dot(triangle.normal) >= crease_cosine;
             triangle.normals[k] = has_mean ? mean : triangle.normal;
@@ -280,7 +271,7 @@ TargetShape target_shape(const TargetMesh& mesh) {
     JoinedTriangles joined(shape);
     shape.closed = joined.closed;
     if (shape.closed) turn_outwards(shape, joined.parts);
-    set_smooth_normals(shape, joined.corners);
+    set_smooth_normals(shape, joined.corners, joined.one_winding);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t)
         shape.triangles[t].region = joined.regions.of(t);
     return shape;

@@ -95,8 +95,8 @@ def numbers_of(pairs, measured, first, law, scale, known):
 
 def is_wide(name, number):
     """True for a number that the levels do not show. The key tvg_log has limits."""
-    is_out = name == "tvg_log" and not 0.0 <= number.value <= 60.0
-    return is_out or number.high - number.low > (WIDEST * number.value if name == "tvg_log" else WIDEST_DB)
+    most = WIDEST_DB if name != "tvg_log" else WIDEST * number.value if 0.0 <= number.value <= 60.0 else 0.0
+    return number.high - number.low > most
 
 
 def fit_levels(windows, start, fit, mission=None, settings=()):
@@ -116,7 +116,10 @@ def fit_levels(windows, start, fit, mission=None, settings=()):
         high = np.max([values + 1.96 * errors for values, errors in found], axis=0)
         numbers = {name: Bounded(*map(float, ends)) for name, *ends in zip(NUMBERS, found[0][0], low, high)}
         wide = [name for name in numbers if name not in known and is_wide(name, numbers[name])]
-        fit.notes += [f"{name}: the levels hardly show it; that of the start is kept" for name in wide]
+        for name in wide:
+            fit.estimates.pop(f"receiver.{name}", None)
+            receiver[name] = start.instrument["receiver"].get(name)
+            fit.notes.append(f"{name}: the levels hardly show it; that of the start is kept")
         known = known + wide
     for name, number in numbers.items():
         if name not in known:

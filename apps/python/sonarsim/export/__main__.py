@@ -173,7 +173,7 @@ def no_pictures(part, pictures, options):
     sides = (picture.width, along // 2) if picture.rows_are_pings else (along // 2, picture.height)
     options.tile = [max(16, side) for side in sides]
     if not any(shown == part for one in pictures for shown in one.parts):
-        return f"--split: no variant is left for {part!r}; give it a larger share, render more variants, or leave it out"
+        return f"--split: no variant or ping is left for {part!r}; give it a larger share, render more, or leave it out"
     text = f"--split: no picture is left for {part!r}: {picture.path} "
     if picture.kind == "strip" and options.overlap < min(options.tile) and set(options.split or ()) <= {
             part_of(picture, frame) for frame in frames_of(picture, options)}:

@@ -128,9 +128,8 @@ class Yolo(Format):
             values = runs.joined(one["outlines"])
         elif self.options.oriented:
             values = runs.min_rectangle(sum(one["outlines"], []))
-            # Trainers refuse corners beyond the border.
             if not all(-1e-6 < x < width + 1e-6 and -1e-6 < y < height + 1e-6 for x, y in values):
-                values = [(left, top), (right, top), (right, bottom), (left, bottom)]
+                values = [(left, top), (right, top), (right, bottom), (left, bottom)]     # trainers refuse corners beyond
         return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
 
     def finish(self):

@@ -53,10 +53,10 @@ class Source:
         self.pictures, self._taken = [], set()
         for index in range(len(self.datasets)):
             self._add_pictures(index, options)
-        if options.tile and not any(one.kind in ("strip", "sweep") for one in self.pictures):
-            raise ValueError("--tile: cuts waterfalls, echograms and sweeps, and there is none")
         if not self.pictures:
             raise ValueError(f"{folders[0]}: has no pictures to export: none of the sensors writes any")
+        if options.tile and not any(one.kind in ("strip", "sweep") for one in self.pictures):
+            raise ValueError("--tile: cuts waterfalls, echograms and sweeps, and there is none")
 
     def _shares_of_datasets(self, options):
         """The part of each dataset that is one of several variants of a mission; the shares of the others."""
