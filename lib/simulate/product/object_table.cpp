@@ -104,8 +104,7 @@ void extend_by_line(const Eigen::Vector3f& p, const Eigen::Vector3f& e, float ne
     box.extend(p + to * e);
 }
 
-/// The box around the visible surface of each object that is no background, sensor frame. The lines
-/// through the middles of samples are visible; their corners may not be.
+/// The box around each object's visible surface, sensor frame. Corners of samples may be hidden.
 std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects, const View& view,
                                                const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());

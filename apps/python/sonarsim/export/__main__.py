@@ -35,8 +35,7 @@ class Parser(argparse.ArgumentParser):
 
 # The least and largest values of numbers.
 LIMITS = {"min_pixels": (1, 1 << 30), "min_visible_share": (0, 1), "min_contrast_db": (0, 100), "gap": (0, 1 << 30),
-          "min_grey": (0, 255), "rounds": (1, 1 << 20), "overlap": (0, 65536), "least_share": (0, 1),
-          "negatives": (0, 1000)}
+          "min_grey": (0, 255), "rounds": (1, 1 << 20), "overlap": (0, 65536), "least_share": (0, 1), "negatives": (0, 1000)}
 
 
 def tile(text):

@@ -53,8 +53,7 @@ def prepare(picture, numbers, options):
         shown = [show(one, picture, frame, options) for one in kept]
         dropped += shown.count(False)
         piece = Piece(picture.name + (f"-y{frame[2]:05}-x{frame[0]:05}" if len(frames) > 1 else ""), part,
-                      frame[1] - frame[0], frame[3] - frame[2], picture.dataset, [one for one in shown if one],
-                      picture.path)
+                      frame[1] - frame[0], frame[3] - frame[2], picture.dataset, [one for one in shown if one], picture.path)
         if not is_copy:
             piece.content = png_of(Image.fromarray(np.ascontiguousarray(pixels[frame[2]:frame[3], frame[0]:frame[1]])))
         if options.format == "masks":
