@@ -57,8 +57,8 @@ TEST_CASE("particles: the level of a target in an echosounder, at every place") 
     }
 }
 
-// In a fan the beam that looks at the target has all of it; in elevation the two-way pattern is
-// a line array's, at half its width down by a factor of two.
+// In a fan the beam that looks at the target has all of it, within 0.2 dB by its place between two
+// columns of the grid. In elevation the two-way pattern is half at half its width.
 TEST_CASE("particles: the level of a target in the beam of a fan, and by elevation") {
     InstrumentConfig config = instrument_of(Aperture::line, 2.0, 0.1);
     config.beam.elevation_width_deg = 20.0;

@@ -37,8 +37,7 @@ def result_of(name, pings, figures, notes, estimates):
                  "fitted ones: the scene or the sonar changed between them"]
     columns = "start", "in_sample", "held_out"
     return {"recording": name, "pings_fitted": pings[0], "pings_judged": pings[1],
-            "estimates": {key: value._asdict() if isinstance(value, Bounded) else value
-                          for key, value in estimates.items()},
+            "estimates": {key: value._asdict() if isinstance(value, Bounded) else value for key, value in estimates.items()},
             "figures": [{"figure": row[0].name, **dict(zip(columns, map(column, row)))} for row in figures],
             "agree": {of: sum(bool(row[k].agrees) for row in figures) for k, of in enumerate(columns)}, "notes": notes}
 

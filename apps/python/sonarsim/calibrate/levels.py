@@ -11,7 +11,7 @@ FULL, MAX_IMAGES, MAX_COLUMNS, RINGS = 255.0, 3, 32, 16
 QUANTILES = 0.1, 0.5, 0.9, 0.98
 # In dB, of all ranges, and of rings where the scene is seen as the pings see theirs, and where not. Chosen.
 LEVEL_ERROR, RING_ERROR, RING_ERROR_USUAL = 0.5, 1.5, 20.0
-WIDEST_DB = 40.0
+WIDEST_DB = 40.0    # of an interval of levels: twice what two scenes of one sonar differed by
 NUMBERS = {"full_scale_db": 30.0, "noise_db": 30.0, "tvg_log": 10.0}    # deviations from the start
 
 
@@ -124,7 +124,8 @@ def fit_levels(windows, start, fit, mission=None, settings=()):
     for name, number in numbers.items():
         if name not in known:
             fit.set(f"receiver.{name}", number)
-    fit.notes.append("gain and noise are those with which " + ("the mission's scene" if mission else
+    if len(known) < len(NUMBERS):
+        fit.notes.append("gain and noise are those with which " + ("the mission's scene" if mission else
                      f"a level bottom of {BOTTOMS[0]}") + " has the levels of the pings. The scene decides them, and the law: two "
                      "scenes of one sonar differed by 20 dB; " + ("the intervals are of this scene alone" if mission else
                                                                   f"the intervals hold {', '.join(BOTTOMS)}"))

@@ -16,11 +16,10 @@ LARGEST_PRESET = 1 << 20
 MAX_ABSORBED_DB = 100.0    # more than any sonar has to spare
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {"beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
-    "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0}, "speckle": {"mode": "scene"},
-    "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
-                 "dynamic_range_db": 60.0, "samples": 1.0, "combine": "max", "expansion": 1.0, "offset": 0.0,
-                 "converter_noise_db": -300.0},
-}
+            "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0}, "speckle": {"mode": "scene"},
+            "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
+                         "dynamic_range_db": 60.0, "samples": 1.0, "combine": "max", "expansion": 1.0, "offset": 0.0,
+                         "converter_noise_db": -300.0}}
 
 
 def program_of(package):
