@@ -50,7 +50,9 @@ Drawn draw(const ParticlesConfig& config, std::uint64_t seed) {
 // radius is uniform, and so is the height over the radius. Significance 1e-3 each.
 TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
     for (const ParticleRegion region : {ParticleRegion::box, ParticleRegion::ellipsoid}) {
-        const Drawn drawn = draw(school(region, 3000.0), 5);
+        ParticlesConfig config = school(region, 3000.0);
+        config.rise_m_s = 0.5;
+        const Drawn drawn = draw(config, 5);
         std::vector<double> first, second, lengths;
         for (const Particle& particle : drawn.particles().all()) {
             const Eigen::Vector3d middle(100.0, -50.0, -10.0);
@@ -58,6 +60,11 @@ TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
                 (particle.start_m - middle).cwiseQuotient(Eigen::Vector3d(10.0, 5.0, 2.0));
             const bool box = region == ParticleRegion::box;
             const double radius = scaled.norm();
+            // Rising keeps it within the ellipsoid.
+            const Eigen::Vector3d risen = place_at(particle, 3.1) - middle;
+            if (!box)
+                CHECK(std::hypot((risen.x() - 1.55) / 10.0, risen.y() / 5.0, risen.z() / 2.0) <
+                      1.0 + 1e-9);
             first.push_back(box ? 0.5 * (scaled.x() + 1.0) : std::pow(radius, 3));
             second.push_back(0.5 * (box ? scaled.y() + 1.0 : scaled.z() / radius + 1.0));
             // Love: the strength goes with 19.1 log L.
@@ -65,7 +72,7 @@ TEST_CASE("particles: evenly distributed in a box and in an ellipsoid") {
             const double f_khz = 1e-3 * drawn.sonars[0].config.instrument.frequency_hz;
             const double length_cm = std::pow(10.0, (db + 62.0 + 0.9 * std::log10(f_khz)) / 19.1);
             lengths.push_back((length_cm - 20.0) / 10.0);
-            CHECK(particle.velocity_m_s.x() == 0.5);
+            CHECK(particle.velocity_m_s == Eigen::Vector3d(0.5, 0.0, 0.5));
         }
         const auto uniform = [](double x) { return std::min(1.0, std::max(0.0, x)); };
         for (const auto& drawn_shares : {first, second, lengths})

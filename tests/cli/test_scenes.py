@@ -10,7 +10,7 @@ from sandbox import (SONARSIM, Composed, Sandbox, box_gltf, box_mesh, digest, gl
 
 OBJECT = "{name: a, file: %s, position_m: [5, 0.25, 0.5], rpy_deg: [0, 0, 30]%s}"
 FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: [4, -2, 1]}, "
-        "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 5}}")
+        "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 0.7}}")
 PARTICLES = ("  particles:\n    - {name: fish, target_strength_db: -20, count: 1, position_m: "
              "[4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]}\n")
 OBJ_HEAD = "mtllib a.mtl\no crate\nusemtl Concrete\n"

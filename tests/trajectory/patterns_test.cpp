@@ -47,6 +47,8 @@ TEST_CASE("waypoints: constant speed along straight legs, on which the attitude 
     CHECK(heading(poses[20]) == approx(90));
     for (std::size_t k = 1; k < poses.size(); ++k)
         CHECK((position(poses[k]) - position(poses[k - 1])).norm() == approx(0.5).epsilon(1e-12));
+    // At a rate of 0 the corners alone, at whatever time.
+    CHECK(follow_waypoints(points, 2.0, 0.0)[1].t_s == 2.5);
 }
 
 TEST_CASE("waypoints: a leg without length, and more poses than memory holds") {

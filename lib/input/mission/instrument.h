@@ -95,7 +95,7 @@ struct ReceiverConfig {
     double ring_down_m = 0.1;         ///< range over which it falls by 10 dB
     double beam_gain_db = 0.0;        ///< standard deviation of the gains of the channels
     int channel_beams = 1;            ///< adjacent beams that one channel receives
-    double edge_loss_db = 0.0;        ///< loss of the outermost beams
+    double edge_loss_db = 0.0;        ///< loss at the edges of a fan
     double reverberation_db = -20.0;  ///< energy of the tail of an echo over the echo's
     double reverberation_s = 0.0;     ///< time in which it falls by 60 dB; 0: none
     double interference_per_s = 0.0;  ///< rate of foreign pulses
@@ -249,13 +249,13 @@ void describe_chain(auto& v, ReceiverConfig& c) {
     v.number("loss_share", c.loss_share, between(0, 1),
              "share of the pings that are weaker, as by bubbles below a hull");
     v.number("loss_db", c.loss_db, between(0, 60),
-             "mean loss of such a ping, exponentially distributed");
+             "mean loss of such a ping with its noise, exponentially distributed");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of channels, which stay from ping to ping");
     v.number("channel_beams", c.channel_beams, between(1, 4096),
              "adjacent beams that one channel receives, with one gain");
     v.number("edge_loss_db", c.edge_loss_db, between(0, 30),
-             "loss of the outermost beams, from the middle on with the square of their number");
+             "loss at the edges of a fan; it grows from the middle as the square");
 }
 
 void describe(auto& v, ReceiverConfig& c) {

@@ -70,7 +70,7 @@ void describe(auto& v, SoundProfileConfig& c) {
              "m and 8 degrees below 30 m");
     v.path("file", c.file, "CSV with the columns depth_m and sound_speed_m_s, in rising depth");
     v.require((c.named != NamedProfile::none) != !c.file.empty(), {"named", "file"},
-              "a profile of sound speed needs exactly one of 'named' and 'file'");
+              "a profile of sound speed needs either a file or a name");
 }
 
 void describe(auto& v, WaterConfig& c) {

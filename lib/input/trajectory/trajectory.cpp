@@ -51,6 +51,7 @@ TimedPose interpolate(const Trajectory& trajectory, double t_s) {
 
 Trajectory resample(const Trajectory& trajectory, double rate_hz) {
     require_poses(trajectory);
+    if (rate_hz == 0.0) return trajectory;
     const double first = trajectory.front().t_s;
     const double last = trajectory.back().t_s;
     const double rounding =

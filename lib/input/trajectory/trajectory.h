@@ -31,8 +31,8 @@ TimedPose interpolate(const Trajectory& trajectory, double t_s);
 /// Poses at t0 + k / rate_hz, k = 0, 1, ..., up to the time of the last pose, where t0 is the time
 /// of the first. The last pose is included if it misses the grid by at most 1e-9 s plus the
 /// rounding of its own time (0.8 us for times that count from 1970). InputError if the trajectory
-/// is empty, if the rate, which is above 0, is so high that times round to the same number, or if
-/// there are more than `max_poses`.
+/// is empty, if the rate is so high that times round to the same number, or if there are more than
+/// `max_poses`. A rate of 0 leaves the poses as they are.
 Trajectory resample(const Trajectory& trajectory, double rate_hz);
 
 }  // namespace sonarsim

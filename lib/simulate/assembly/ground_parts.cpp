@@ -92,8 +92,8 @@ Eigen::AlignedBox2d needed_ground(const Mission& mission, const Trajectory& vehi
     if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
         if (ground.isEmpty()) {
             throw InputError(mission.scene.place,
-                             "trajectory.look_at: a heightmap or a made sea bed has no objects; "
-                             "add scene.objects or scene.scatter");
+                             "trajectory.look_at: a heightmap or a made sea bed has no objects "
+                             "at rest; add scene.objects or scene.scatter");
         }
         const double reach_m =
             look_at->range_m[1] + faster_sound(mission) * farthest_range_m(mission);

@@ -62,11 +62,15 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
     std::vector<DrawnParticle> out(count_of(config, draws));
     for (std::uint32_t k = 0; k < out.size(); ++k) {
         Particle& particle = out[k].particle;
-        particle.start_m = middle + half.cwiseProduct(place_in(config.region, draws, k));
+        const Eigen::Vector3d at = place_in(config.region, draws, k);
+        particle.start_m = middle + half.cwiseProduct(at);
         particle.velocity_m_s = velocity;
         if (config.rise_m_s > 0.0) {
-            particle.bottom_m = middle.z() - half.z();
-            particle.top_m = middle.z() + half.z();
+            const double share = config.region == ParticleRegion::box
+                                     ? 1.0
+                                     : std::sqrt(std::max(1.0 - at.head<2>().squaredNorm(), 0.0));
+            particle.bottom_m = middle.z() - share * half.z();
+            particle.top_m = middle.z() + share * half.z();
         }
         out[k].size = draws.in(sizes, ParticleDraw::size, k);
     }

@@ -20,8 +20,7 @@ namespace {
 
 Trajectory form_of(const FileTrajectoryConfig& config) {
     return read_named_at(config.place, [&] {
-        Trajectory poses = read_trajectory(config.file);
-        return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
+        return resample(read_trajectory(config.file), config.rate_hz);
     });
 }
 
@@ -111,6 +110,15 @@ std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine
 
 Trajectory poses_of(const TrajectoryConfig& config) {
     return std::visit([](const auto& form) { return form_of(form); }, config);
+}
+
+Trajectory path_of(TrajectoryConfig config) {
+    std::visit(
+        [](auto& form) {
+            if constexpr (requires { form.rate_hz; }) form.rate_hz = 0.0;
+        },
+        config);
+    return poses_of(config);
 }
 
 void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& poses) {

@@ -27,6 +27,8 @@ std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine
 
 /// The poses of a trajectory. Throws InputError for errors in its file or numbers.
 Trajectory poses_of(const TrajectoryConfig& config);
+/// The same with the poses alone that the configuration gives: corners stay sharp.
+Trajectory path_of(TrajectoryConfig config);
 
 /// The poses of a mission's vehicle: its trajectory with the offset `vehicle`, whose numbers may be
 /// drawn for every ping, and with the movements of `vehicle.motion`. With `look_at` only their

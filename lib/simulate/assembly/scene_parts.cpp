@@ -133,13 +133,16 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
     const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&*object.trajectory);
     if (lines && lines->altitude_m > 0.0)
         throw InputError(object.place, title_of(object) + " has no altitude_m: give z_m");
-    Trajectory motion = read_named_at(object.place, [&] { return poses_of(*object.trajectory); });
+    Trajectory motion = read_named_at(object.place, [&] { return path_of(*object.trajectory); });
     const double start_s = vehicle.front().t_s;
     const double end_s = vehicle.back().t_s;
     if (!std::holds_alternative<FileTrajectoryConfig>(*object.trajectory)) {
         for (TimedPose& pose : motion)
             pose.t_s += start_s;
     }
+    constexpr double rounding_s = 1e-6;
+    if (motion.back().t_s < end_s && motion.back().t_s > end_s - rounding_s)
+        motion.back().t_s = end_s;
     if (motion.front().t_s <= start_s && motion.back().t_s >= end_s) return motion;
     throw InputError(object.place,
                      title_of(object) + " moves from " + number_text(motion.front().t_s) +
