@@ -27,17 +27,12 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "water": "core",
     "scene": "core mission",
     "trajectory": "core mission",
-    "visibility": "core water scene",
-    "trace": "core water scene visibility",
-    "paper": "core mission scene visibility trace",
-    "calibrated": "core mission scene visibility trace",
-    "ping": "core mission water trace",
-    "labels": "core scene visibility trace ping",
-    "product": "core mission trace ping labels",
-    "sonar": "core mission visibility paper calibrated ping product",
+    "visibility": "core water scene", "trace": "core water scene visibility",
+    "paper": "core mission scene visibility trace", "calibrated": "core mission scene visibility trace",
+    "ping": "core mission water trace", "labels": "core scene visibility trace ping",
+    "product": "core mission trace ping labels", "sonar": "core mission visibility paper calibrated ping product",
     "assembly": "core mission water scene trajectory visibility trace calibrated ping product sonar",
-    "reference": "core scene visibility trace ping",
-    "format": "core",
+    "reference": "core scene visibility trace ping", "format": "core",
     "dataset": "core mission scene trajectory ping labels product sonar assembly format",
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
     "job": "core mission trajectory visibility sonar assembly dataset checks",
@@ -69,11 +64,8 @@ OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2
 CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?(?: :[^;{]*)? \{")
 # Which folder alone may use a library.
 OWNERS = {
-    "yaml-cpp/": "mission", "tiny_gltf.h": "scene",
-    "assimp/": "apps", "OpenImageIO/": "apps",
-    "libdeflate.h": "format", "nettle/": "core",
-    "embree3/": "visibility", "embree4/": "visibility", "CLI/": "apps",
-}
+    "yaml-cpp/": "mission", "tiny_gltf.h": "scene", "assimp/": "apps", "OpenImageIO/": "apps",
+    "libdeflate.h": "format", "nettle/": "core", "embree3/": "visibility", "embree4/": "visibility", "CLI/": "apps", }
 
 
 def without_door(path: str) -> str | None:

@@ -20,11 +20,8 @@ BANNED = {
     r"there and back": "two-way", r"by way of": "over, through or by",
     r"told\b": "reported, named or warned", r"heard?\b": "insonified, received or visible",
     r"lit\b": "occupied or insonified", r"by so much": "the quantity",
-    r"sees? anew": "again", r"makes? (?:it|them) anew": "again",
-    r"goes on from there": "continues",
-    r"is no (?:\.npy|archive|dataset|file|PNG|shard)\b": "is not a, or cannot be",
-    r"doubt(?:s|ful|ed)?\b": "warning",
-}
+    r"sees? anew": "again", r"makes? (?:it|them) anew": "again", r"goes on from there": "continues",
+    r"is no (?:\.npy|archive|dataset|file|PNG|shard)\b": "is not a, or cannot be", r"doubt(?:s|ful|ed)?\b": "warning", }
 WORDS = re.compile(r"\b(?:" + "|".join(f"({word})" for word in BANNED) + ")", re.IGNORECASE)
 LITERAL = re.compile(r'"(?:\\.|[^"\\])*"')
 

@@ -72,6 +72,28 @@ TEST_CASE("resolution cell of three presets: a point is as wide as beam and puls
     }
 }
 
+TEST_CASE("beam of a fan: a point that passes it finds its width at the preset's number of beams") {
+    for (const char* const preset : {"oculus_m1200d_2100khz", "oculus_m1200d_1200khz"}) {
+        CAPTURE(preset);
+        const Sonar sonar =
+            preset_sonar(preset,
+                         "    range_bins: 9\n    range_min_m: 4.9\n    range_max_m: 5.1\n"
+                         "    instrument: {usual_water: none, receiver: {samples: 1}, "
+                         "beam: {elements: {gain_error_db: 0, phase_error_deg: 0}}}\n");
+        const double width = aperture_width(array_of(sonar));
+        Eigen::ArrayXd passed(81);
+        for (int i = 0; i < 81; ++i) {
+            const double sine = 0.05 * width * (i - 40);
+            Samples point;
+            point.items = {plate_ahead(5.0, 1e-4)};
+            point.items[0].position.y() = static_cast<float>(5.0 * sine);
+            const int beams = sonar.settings.view.beams;
+            passed[i] = image_array(quiet_image(sonar, point, false), beams).col(beams / 2).sum();
+        }
+        CHECK(std::fabs(half_power_width(passed) * 0.05 - 1.0) < 0.03);
+    }
+}
+
 TEST_CASE("scanning: a point is smeared over the steps as the two-way beam is") {
     for (const char* const preset : {"micron", "ping360"}) {
         // Short pings, and steps of half a degree over 24 degrees.

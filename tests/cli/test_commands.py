@@ -121,19 +121,14 @@ class Python(Sandbox):
 WRONG = (
     ("seed: 7", "sead: 7", "sead"), ("seed: 7", "seed: -1", "seed"),
     ("seed: 7", "seed: 7\nengine: cubes", "engine"), ("seed: 7", "seed: 7\nwater: 997", "water"),
-    ("seed: 7", "seed: 7\nclasses: {nodes: a, class: b}", "classes"),
-    ("  materials: materials.csv\n", "", "scene"),
+    ("seed: 7", "seed: 7\nclasses: {nodes: a, class: b}", "classes"), ("  materials: materials.csv\n", "", "scene"),
     ("  materials: materials.csv\n", "  materials: materials.csv\n  objects: [{name: hull}]\n", "objects"),
-    ("  file: path.csv", "  file: path.csv\n  speed_m_s: 1", "trajectory"),
-    ("    kind: imaging\n", "", "fls"),
-    ("kind: imaging", "kind: sidescan", "azimuth_bins"),
-    ("kind: imaging", "kind: imaging\n    model: calibrated", "noise"),
+    ("  file: path.csv", "  file: path.csv\n  speed_m_s: 1", "trajectory"), ("    kind: imaging\n", "", "fls"),
+    ("kind: imaging", "kind: sidescan", "azimuth_bins"), ("kind: imaging", "kind: imaging\n    model: calibrated", "noise"),
     ("kind: imaging", "kind: imaging\n    mount: {rpy_deg: [0, 0]}", "rpy_deg"),
-    ("range_max_m: 6", "range_max_m: 0", "range_max_m"),
-    ("range_bins: 48", "range_bins: 48.5", "range_bins"),
+    ("range_max_m: 6", "range_max_m: 0", "range_max_m"), ("range_bins: 48", "range_bins: 48.5", "range_bins"),
     ("range_bins: 48", "range_bins: 8193", "range_bins"), ("  fls:", "  fore ward:", "fore ward"),
-    ("image: true", "image: 1", "image"), ("image: true", "labels: [share, share]", "labels"),
-)
+    ("image: true", "image: 1", "image"), ("image: true", "labels: [share, share]", "labels"), )
 
 
 @unittest.skipIf(jsonschema is None, "needs jsonschema and yaml")

@@ -25,8 +25,7 @@ NOT_RUN = {
     "yolo detect train model=yolo11n.pt data=anchors/data.yaml": "the same",
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
-        "needs Slurm; test_scripts.py runs it with a stand-in",
-}
+        "needs Slurm; test_scripts.py runs it with a stand-in", }
 PYTHON = python_with("matplotlib")
 PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE", "")
 MODULE_PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
@@ -37,20 +36,17 @@ FEW = f"--set trajectory.rate_hz=1 {TINY}"
 WITH = {
     "./scripts/render.sh configs/tank_imaging.yaml": FEW,
     "./scripts/render.sh configs/detection.yaml": f"--set variants=5 --set trajectory.rate_hz=0.5 {TINY}",
-    "build/sonarsim validate anchors.yaml": f"--set variants=1 {FEW}",
-    "build/sonarsim preview anchors.yaml": FEW,
+    "build/sonarsim validate anchors.yaml": f"--set variants=1 {FEW}", "build/sonarsim preview anchors.yaml": FEW,
     "build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png": FEW,
     "build/sonarsim render anchors.yaml": f"--set variants=5 {FEW}",
     'make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep sensors.fls.range_max_m="6 10" seed="1 2"':
-        "trajectory.rate_hz=1 sensors.fls.range_bins=64",
-}
+        "trajectory.rate_hz=1 sensors.fls.range_bins=64", }
 INSTEAD = {command: f"{command} {more}" for command, more in WITH.items()} | {
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
         f"build/sonarsim validate hull.yaml {TINY} && build/sonarsim render hull.yaml {TINY}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
         f"sonarsim render share/sonarsim/configs/tank_imaging.yaml {FEW} --out out/installed",
-    "sonarsim status OUT": "sonarsim status part1",
-}
+    "sonarsim status OUT": "sonarsim status part1", }
 
 # What a page takes for granted.
 BEFORE = {"docs/running.md": ("for i in $(seq 4); do sonarsim render mission.yaml -q --shard $i/4 --out part$i; done",)}

@@ -125,8 +125,7 @@ class SameBytes(Package):
         changes = {"seed": 9, "sensors.fls.range_bins": np.int64(40), "sensors.fls.noise": {"add_sigma": 0.2}}
         self.assert_same(self.open(changes), self.out)
         written = {
-            "name": "box", "seed": 9,
-            "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
+            "name": "box", "seed": 9, "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
             "trajectory": {"file": "path.csv"},
             "sensors": {"fls": {"kind": "imaging", "azimuth_deg": 60, "elevation_deg": 12, "range_max_m": 6,
                                 "range_bins": 40, "azimuth_bins": 32, "noise": {"add_sigma": 0.2}}}}

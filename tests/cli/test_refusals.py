@@ -178,8 +178,7 @@ REFUSED = (
     (seabed(", rocks: {density_per_m2: 9999, diameter_m: [0.1, 0.2]}"), "and at most 50000 have room", "density_per_m2"),
     (ground("seabed: {cell_m: 0.002, material: Sand}"), "mission.yaml:3:11: the mission needs", "raise cell_m"),
     (ground("seabed: {cell_m: 0.1, preset: seabeds/rockie.yaml}"),
-     "none of this name came with the program", "did you mean 'rocky'", "seabeds/NAME.yaml"),
-)
+     "none of this name came with the program", "did you mean 'rocky'", "seabeds/NAME.yaml"), )
 
 # The same of missions that can be rendered: the number of the warning, and words of it.
 WARNED = (
@@ -220,8 +219,7 @@ WARNED = (
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),
      None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
     (edited("scene:\n", "water: {profile: {named: summer}}\nscene:\n  water_surface: {height_m: 3}\n"),
-     None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
-)
+     None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"), )
 
 
 class Mistakes(Sandbox):

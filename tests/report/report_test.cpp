@@ -150,17 +150,6 @@ TEST_CASE("the settings hold the mission's own setting once, marked, and no need
         CHECK(unsupported(setting, assembly).empty() == (setting.kind != EngineKind::octree));
 }
 
-TEST_CASE("a goal is met at the worst pose, or missed") {
-    Setting setting;
-    setting.relative_l1 = 0.03;
-    CHECK(std::string(goal_of(setting, 0.02)) == "met");
-    CHECK(std::string(goal_of(setting, 0.031)) == "missed");
-    setting.kind = EngineKind::strips;
-    CHECK(std::string(goal_of(setting, 0.031)) == "missed");
-    setting.kind = EngineKind::octree;
-    CHECK(std::string(goal_of(setting, 0.031)) == "-");
-}
-
 TEST_CASE("the yardstick rays are spread evenly over the view") {
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         const View view =

@@ -126,15 +126,18 @@ TEST_CASE("bent rays: a sight line goes on behind what it met") {
     const Scene scene = floor_under(bent_gradient);
     const auto engine = engine_of(scene, EngineKind::rays);
     const Eigen::Vector3f direction = Eigen::Vector3f::UnitX();
-    Ray ray{Eigen::Vector3f::Zero(), direction};
-    Intersection first{};
-    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&first, 1});
-    REQUIRE(std::isfinite(first.distance_m));
-    ray.origin = 30.0F * direction;
-    Intersection later{};
-    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
-    CHECK(later.distance_m + 30.0F == approx(first.distance_m).epsilon(1e-5));
-    ray.origin = 1.001F * first.distance_m * direction;
-    engine->intersect_behind(bent_pose, {&ray, 1}, 200.0F, {&later, 1});
-    CHECK(!std::isfinite(later.distance_m));
+    const auto distances_from = [&](float range_m) {
+        const Ray ray{range_m * direction, direction};
+        std::vector<float> out;
+        engine->pass_surfaces(bent_pose, {&ray, 1}, 200.0F,
+                              [&](std::size_t, std::span<const Intersection> met) {
+                                  for (const Intersection& one : met)
+                                      out.push_back(one.distance_m);
+                              });
+        return out;
+    };
+    const std::vector<float> first = distances_from(0.0F);
+    REQUIRE(first.size() == 1);
+    CHECK(distances_from(30.0F).at(0) + 30.0F == approx(first[0]).epsilon(1e-5));
+    CHECK(distances_from(1.001F * first[0]).empty());
 }

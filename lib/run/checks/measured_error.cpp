@@ -70,10 +70,8 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const std::shared_ptr<const VisibilityEngine> then =
         engine_at(engine, assembly.motions, at.t_s);
     const Ping ping = direct_image(*sonar, scene, *then, T_world_sensor);
-    const auto is_dark = [](float echo) { return echo == 0.0F; };
-    if (std::ranges::all_of(truth.intensity, is_dark) &&
-        std::ranges::all_of(ping.intensity, is_dark))
-        return {pose, {}, 0.0};
+    const bool has_truth = std::ranges::max(truth.intensity) > 0.0F;
+    if (!has_truth && !(std::ranges::max(ping.intensity) > 0.0F)) return {pose, {}, 0.0};
     const double direct = error_without_noise(ping.intensity, truth);
     const auto change = [&](double finer) {
         return change_when_finer(sonar->settings, finer, scene, *then, T_world_sensor);
@@ -82,7 +80,8 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const bool many_paths = sonar->settings.multipath.on;
     const double with_paths = many_paths ? change(0.1) : 0.0;
     const double error = std::max(direct, with_paths);
-    if (truth.noise <= measurable * std::max(goal, error)) return {pose, error, truth.noise};
+    if (has_truth && truth.noise <= measurable * std::max(goal, error))
+        return {pose, error, truth.noise};
     if (mission.engine == EngineKind::octree || goal < min_refined_goal)
         return {pose, {}, truth.noise};
     // The noise may be all of `direct`.

@@ -16,6 +16,12 @@ namespace sonarsim {
 
 namespace {
 
+/// The octree has no goal.
+const char* goal_of(const Setting& setting, double worst_relative_l1) {
+    if (setting.kind == EngineKind::octree) return "-";
+    return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
+}
+
 Setting setting_of(EngineKind kind, double goal, double leaf_m = EngineSettings{}.octree.leaf_m) {
     const bool is_octree = kind == EngineKind::octree;
     return {
@@ -250,11 +256,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     });
     settings.push_back(own);
     return settings;
-}
-
-const char* goal_of(const Setting& setting, double worst_relative_l1) {
-    if (setting.kind == EngineKind::octree) return "-";
-    return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
 }
 
 std::string unsupported(const Setting& setting, const Assembly& assembly) {

@@ -34,9 +34,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick);
 /// The error message of the engine about the scene or the view of a sonar; "": none.
 std::string unsupported(const Setting& setting, const Assembly& assembly);
 
-/// "met" if the goal holds at the worst pose, too, else "missed"; "-" for the octree without one.
-const char* goal_of(const Setting& setting, double worst_relative_l1);
-
 struct ReportOptions {
     int poses = 8;
     int rounds = 5;

@@ -20,7 +20,6 @@ namespace sonarsim {
 
 namespace {
 
-// On the tank the expected image is within 0.7 % of that of much smaller patches.
 constexpr float max_depth_by_bin = 0.5F;
 // One or two beams of the view are often a few per cent wider than one or two steps.
 constexpr float max_sine_by_step = 1.1F;
@@ -39,11 +38,13 @@ constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_
 GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
     const double side_rad = 0.5 * (radians(beam.view_azimuth_deg) - view.azimuth_rad);
     const double bin_rad = view.azimuth_rad / view.beams;
-    const LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
+    const double width_rad = radians(beam.width_deg);
+    const LineArray array = line_array(width_rad, beam.side_lobe_db);
     const double array_step_rad = arcsin(sine_grid(array, {0.0}).step);
-    // Two beams that the array does not resolve are traced as one; more save hardly any time.
-    const bool resolved = radians(beam.width_deg) / bin_rad < 1.5;
-    const int joined = !resolved && view.beams % 2 == 0 ? 2 : 1;
+    // Beams that the array does not resolve are traced as one.
+    int joined = 4.0 * bin_rad > widest_column_rad ? 2 : 4;
+    while (joined > 1 && (view.beams % joined != 0 || joined * bin_rad > 4.0 / 3.0 * width_rad))
+        joined /= 2;
     if (array_step_rad < 2.0 * bin_rad) {
         // Whole joined beams; rounding of degrees to radians must not cost one.
         const double count = std::floor(side_rad / (joined * bin_rad) + 1e-6);

@@ -75,8 +75,7 @@ class NearObjects {
     std::vector<float> from_m_ = std::vector(cells, std::numeric_limits<float>::infinity());
 };
 
-// Depth of a patch of labels: its echo is spread over the bins. With 8 bins, boxes and areas are as
-// near to those of half a bin as with 2.
+// Depth of a patch of labels: its echo is spread over the bins.
 constexpr float max_depth_in_bins = 8.0F;
 
 PointLimits label_limits(const CalibratedModel& model) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "simulate/trace/arrivals.h"
@@ -11,23 +10,8 @@ namespace sonarsim {
 
 namespace {
 
-// A sight line ends after this many surfaces: four closed bodies one behind the other.
-constexpr int max_surfaces_behind = 8;
-
 // Gap behind a surface at which a sight line continues, as a share of its range.
 constexpr float step_behind = 1e-5F;
-
-/// An object that a sight line has met, and the node before it; of the first node, itself.
-struct Occluder {
-    std::uint32_t object, before;
-};
-
-/// True if the way that ends in a node has met an object.
-bool has_met(const std::vector<Occluder>& nodes, std::uint32_t node, std::uint32_t object) {
-    while (nodes[node].object != object && nodes[node].before != node)
-        node = nodes[node].before;
-    return nodes[node].object == object;
-}
 
 /// The solid angle of an object that sight lines meet, sr.
 struct SolidAngles {
@@ -51,7 +35,6 @@ class LineTracer {
           objects_(objects),
           directions_(directions),
           all_(by == HiddenSurface::By::all),
-          range_max_m_(static_cast<float>(width.view.range_max_m)),
           solid_angles_(objects.objects.size()) {}
 
     /// Counts a line as visible. True if wanted surface may lie behind it.
@@ -65,9 +48,10 @@ class LineTracer {
         return !objects_.is_background(owner_of(line));
     }
 
-    /// Notes the surface that a line has met. Returns its object.
+    /// Continues a line behind a surface that it has met. Returns the object of that surface.
     std::uint32_t pass(SightLine& line, const Intersection& met) const {
         const std::uint32_t object = objects_.object_of(met.instance);
+        line.range_m = line.before_m * (1.0F + step_behind) + met.distance_m;
         line.behind_background = line.behind_background || objects_.is_background(object);
         return object;
     }
@@ -78,20 +62,12 @@ class LineTracer {
                !directions_.is_empty_behind(line.direction, line.range_m);
     }
 
-    void begin(std::vector<SightLine>& lines) {
-        for (SightLine& line : lines) {
-            line.last_node = static_cast<std::uint32_t>(nodes_.size());
-            nodes_.push_back({owner_of(line), line.last_node});
+    /// Records the surfaces that a line meets, as far as they are wanted.
+    void record(SightLine line, std::span<const Intersection> surfaces) {
+        met_.assign(1, owner_of(line));
+        for (const Intersection& met : surfaces) {
+            if (!take(line, met)) return;
         }
-    }
-
-    /// Records the surface that lines have met. Those that end there are removed.
-    void advance(std::vector<SightLine>& lines, std::span<const Intersection> met) {
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            if (take(lines[k], met[k])) lines[kept++] = lines[k];
-        }
-        lines.resize(kept);
     }
 
     HiddenSurface finish() {
@@ -120,11 +96,11 @@ class LineTracer {
 
     /// Records the surface that a line has met. True if the line continues.
     bool take(SightLine& line, const Intersection& met) {
-        line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
-        if (!(line.range_m < range_max_m_)) return false;
-        const bool is_far_side =
-            is_by_object(line) && owner_of(line) == objects_.object_of(met.instance);
-        if (is_shadow(line)) {
+        const bool was_shadow = is_shadow(line);
+        const bool was_behind = line.behind_background;
+        const std::uint32_t object = pass(line, met);
+        const bool is_far_side = is_by_object(line) && owner_of(line) == object;
+        if (was_shadow) {
             // Hidden surface lies behind what hides it, however far its plane extends.
             const float half_m = half_extent(line, line.range_m, met.normal, width_);
             const float near_m = std::max(line.range_m - half_m, line.before_m);
@@ -133,14 +109,11 @@ class LineTracer {
                 line.solid_angle / static_cast<float>(line.last_beam - line.beam + 1);
             for (std::uint32_t beam = line.beam; beam <= line.last_beam; ++beam)
                 pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
-                                   0.5F * (far_m - near_m), each, line.behind_background,
-                                   is_far_side});
+                                   0.5F * (far_m - near_m), each, was_behind, is_far_side});
         }
-        const std::uint32_t object = pass(line, met);
-        if (!has_met(nodes_, line.last_node, object)) {
+        if (std::ranges::find(met_, object) == met_.end()) {
             solid_angles_[object].hidden += line.solid_angle;
-            nodes_.push_back({object, line.last_node});
-            line.last_node = static_cast<std::uint32_t>(nodes_.size() - 1);
+            met_.push_back(object);
         }
         return is_wanted(line);
     }
@@ -155,54 +128,26 @@ class LineTracer {
     const LineWidth& width_;
     const SceneObjects& objects_;
     const ObjectDirections& directions_;
-    bool all_;  ///< background hides surface, too
-    float range_max_m_;
-    std::vector<Occluder> nodes_;
+    bool all_;                               ///< background hides surface, too
+    std::vector<std::uint32_t> met_;         ///< the objects that the line has met
     std::vector<SolidAngles> solid_angles_;  ///< indexed by object
     std::vector<HiddenPiece> pieces_;
 };
 
-/// The parts of lines. One line of a sample finds out how deep the surface behind it is, layer by
-/// layer; behind the sample of a line array, only whether there is any.
-template <class Cast>
-std::vector<SightLine> divided_lines(std::span<const SightLine> whole, const LineWidth& width,
-                                     const LineTracer& tracer, Cast cast) {
-    const bool by_beams = width.cones.exist();
-    std::vector<LineParts> parts(whole.size());
-    std::vector<std::uint8_t> met_any(whole.size(), 0);
-    std::vector<SightLine> lines(whole.begin(), whole.end());
-    std::vector<std::size_t> number(whole.size());
-    std::iota(number.begin(), number.end(), std::size_t{0});
-    for (int layer = 0; layer < (by_beams ? 1 : max_surfaces_behind) && !lines.empty(); ++layer) {
-        const std::span<const Intersection> met = cast(lines);
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            SightLine& line = lines[k];
-            const bool is_met = std::isfinite(met[k].distance_m);
-            if (!is_met && (by_beams || line.behind_background)) continue;
-            met_any[number[k]] = 1;
-            if (by_beams || tracer.is_by_object(line)) {
-                const LineParts these = parts_of(line, met[k], width);
-                LineParts& all = parts[number[k]];
-                all = {std::max(all.u, these.u), std::max(all.v, these.v)};
-            }
-            if (!is_met) continue;
-            line.range_m = line.range_m * (1.0F + step_behind) + met[k].distance_m;
-            tracer.pass(line, met[k]);
-            if (!tracer.is_wanted(line)) continue;
-            number[kept] = number[k];
-            lines[kept++] = line;
-        }
-        lines.resize(kept);
+/// The parts for a line that meets these surfaces: no piece of them is deeper than a few bins.
+LineParts parts_by_surfaces(SightLine line, std::span<const Intersection> surfaces,
+                            const LineWidth& width, const LineTracer& tracer) {
+    LineParts all;
+    for (std::size_t i = 0; i <= surfaces.size(); ++i) {
+        const Intersection* const met = i < surfaces.size() ? &surfaces[i] : nullptr;
+        if (!met && line.behind_background) break;
+        const LineParts these =
+            tracer.is_by_object(line) ? parts_of(line, met, width) : LineParts{};
+        all = {std::max(all.u, these.u), std::max(all.v, these.v)};
+        if (met) tracer.pass(line, *met);
+        if (!tracer.is_wanted(line)) break;
     }
-    std::vector<SightLine> out;
-    for (std::size_t k = 0; k < whole.size(); ++k) {
-        if (met_any[k] == 0) continue;
-        divide(
-            whole[k], parts[k], width,
-            [&](const SightLine& line) { return tracer.is_wanted(line); }, out);
-    }
-    return out;
+    return all;
 }
 
 }  // namespace
@@ -213,27 +158,32 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const ObjectDirections& directions, HiddenSurface::By by) {
     const LineWidth width{echoes.cones, view.guards.joined, view};
     LineTracer tracer(width, objects, directions, by);
-    std::vector<Ray> rays;
-    std::vector<Intersection> met;
-    const auto cast = [&](std::span<const SightLine> lines) {
-        met.resize(lines.size());
-        rays.clear();
+    const auto pass = [&](std::span<const SightLine> lines, const UseSurfaces& use) {
+        std::vector<Ray> rays;
         for (const SightLine& line : lines)
             rays.push_back(ray_behind(line, traced.motion, view.shape));
-        engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
-                                met);
+        engine.pass_surfaces(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
+                             use);
     };
     const std::vector<SightLine> whole = sight_lines(
         traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
-    std::vector<SightLine> lines = divided_lines(whole, width, tracer, [&](const auto& some) {
-        cast(some);
-        return std::span<const Intersection>(met);
-    });
-    tracer.begin(lines);
-    for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
-        cast(lines);
-        tracer.advance(lines, met);
+    std::vector<SightLine> lines;
+    const auto divide_one = [&](const SightLine& line, const LineParts& parts) {
+        const auto keep = [&](const SightLine& part) { return tracer.is_wanted(part); };
+        divide(line, parts, width, keep, lines);
+    };
+    if (echoes.cones.exist()) {
+        for (const SightLine& line : whole)
+            divide_one(line,
+                       tracer.is_by_object(line) ? parts_of(line, nullptr, width) : LineParts{});
+    } else {
+        pass(whole, [&](std::size_t k, std::span<const Intersection> surfaces) {
+            divide_one(whole[k], parts_by_surfaces(whole[k], surfaces, width, tracer));
+        });
     }
+    pass(lines, [&](std::size_t k, std::span<const Intersection> surfaces) {
+        tracer.record(lines[k], surfaces);
+    });
     return tracer.finish();
 }
 

@@ -28,7 +28,7 @@ struct HiddenSurface {
     /// The objects that hide surface: all, or those that are no background.
     enum class By { all, objects };
 
-    std::vector<HiddenPiece> pieces;  ///< layer by layer
+    std::vector<HiddenPiece> pieces;
     /// The share of each object's solid angle within the range that nothing hides; NaN for an
     /// object that no sight line meets. An object does not hide itself.
     std::vector<float> visible_shares;
@@ -59,7 +59,6 @@ struct SightLine {
     const Sample* sample;
     float share_u, share_v;
     std::uint32_t beam, last_beam;   ///< its part of the footprint covers them
-    std::uint32_t last_node = 0;     ///< the last node of its way
     bool behind_background = false;  ///< background behind its sample was met
 };
 
@@ -83,8 +82,8 @@ struct LineParts {
     int u = 1, v = 1;
 };
 
-/// The parts for a line that meets this surface, or none.
-LineParts parts_of(const SightLine& line, const Intersection& met, const LineWidth& width);
+/// The parts for a line that meets this surface; null: none.
+LineParts parts_of(const SightLine& line, const Intersection* met, const LineWidth& width);
 
 /// Appends the parts of a line that has not left its sample.
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,

@@ -9,13 +9,10 @@ namespace sonarsim {
 
 namespace {
 
-// Sound is followed through this many walls, four closed bodies, while this share of it is left.
-constexpr int max_walls = 8;
+// Sound is followed through walls while this share of it is left.
 constexpr float min_left = 1e-4F;
 // Below this |v . n|, half a degree, a plane is seen edge-on.
 constexpr float min_facing = 0.01F;
-// Gap behind a surface at which the sound continues, as a share of its range.
-constexpr float step_behind = 1e-5F;
 constexpr float max_parts = 64.0F;  // along a half edge
 
 /// The sound that goes through a part of a sample.
@@ -24,7 +21,6 @@ struct RayBundle {
     Eigen::Vector3f half_u, half_v;  ///< half edges across it, at a range of 1 m
     float solid_angle;
     float strength;
-    float range_m = 0.0F;  ///< the begin of its next ray
 };
 
 /// Adds the bundles of a sample's parts. Each spans about a resolution cell, as pieces of targets
@@ -61,8 +57,9 @@ void add_bundles(const Sample& sample, const View& view, std::vector<RayBundle>&
     }
 }
 
-/// The part of the plane of `hit` that a bundle meets at a range.
-Sample met_by(const RayBundle& bundle, const Intersection& hit, float range_m) {
+/// The part of the plane of `hit` that a bundle meets.
+Sample met_by(const RayBundle& bundle, const Intersection& hit) {
+    const float range_m = hit.distance_m;
     const float along = bundle.direction.dot(hit.normal);
     const auto onto_plane = [&](const Eigen::Vector3f& half) -> Eigen::Vector3f {
         return range_m * (half - half.dot(hit.normal) / along * bundle.direction);
@@ -88,34 +85,23 @@ void add_behind_walls(std::span<const float> transmissions, const TraceContext& 
     for (const Sample& sample : samples.items) {
         if (transmissions[sample.material] >= min_left) add_bundles(sample, context.view, bundles);
     }
-    const auto reach = static_cast<float>(context.view.range_max_m);
+    // Rays start at the sonar: a piece of a target may lie off its triangle.
     std::vector<Ray> rays;
-    std::vector<Intersection> hits;
-    // The first rays start at the sonar and find the walls again: a piece of a target may lie off
-    // its triangle.
-    for (int walls = 0; walls <= max_walls && !bundles.empty(); ++walls) {
-        rays.clear();
-        for (const RayBundle& bundle : bundles)
-            rays.push_back({bundle.range_m * bundle.direction, bundle.direction});
-        hits.resize(rays.size());
-        context.engine.intersect_behind(context.T_world_sensor, rays, reach, hits);
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            RayBundle& bundle = bundles[k];
-            const Intersection& hit = hits[k];
-            const float range = bundle.range_m + hit.distance_m;
-            if (!(range < reach)) continue;
-            const float cosine = -hit.normal.dot(bundle.direction);
-            if (walls > 0 && cosine >= min_facing)
-                samples.items.push_back(met_by(bundle, hit, range));
-            bundle.strength *= transmissions[hit.material];
-            if (!(bundle.strength >= min_left)) continue;
-            bundle.range_m =
-                range * (1.0F + step_behind) + 2.0F * hit.rounding_m / std::max(cosine, min_facing);
-            bundles[kept++] = bundle;
+    rays.reserve(bundles.size());
+    for (const RayBundle& bundle : bundles)
+        rays.push_back({Eigen::Vector3f::Zero(), bundle.direction});
+    const auto follow = [&](std::size_t k, std::span<const Intersection> surfaces) {
+        RayBundle& bundle = bundles[k];
+        for (const Intersection& met : surfaces) {
+            const bool is_wall = &met == surfaces.data();
+            if (!is_wall && -met.normal.dot(bundle.direction) >= min_facing)
+                samples.items.push_back(met_by(bundle, met));
+            bundle.strength *= transmissions[met.material];
+            if (!(bundle.strength >= min_left)) return;
         }
-        bundles.resize(kept);
-    }
+    };
+    context.engine.pass_surfaces(context.T_world_sensor, rays,
+                                 static_cast<float>(context.view.range_max_m), follow);
 }
 
 }  // namespace sonarsim

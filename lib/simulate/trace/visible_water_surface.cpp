@@ -14,8 +14,7 @@ namespace sonarsim {
 namespace {
 
 // The directions of the view are cut into cells of this size or this many; a cell that spans too
-// much range is cut in four. These numbers are chosen. With them the area in a bin is right to 1 %
-// (visible_water_surface_test.cpp).
+// much range is cut in four. The area in a bin is right to 1 % (visible_water_surface_test.cpp).
 constexpr double first_cell_rad = radians(2.0);
 constexpr double min_cells = 16.0;
 constexpr float max_range_share = 1.0F / 8.0F;
@@ -125,6 +124,7 @@ void ScatteringSurface::add(const TraceContext& context, const PingMotion& motio
     const auto material = static_cast<std::uint32_t>(scene.materials.size());
     const std::vector<Sample> cells = SurfaceCutter(*surface, view, material).samples;
     std::vector<SightPoint> sights;
+    sights.reserve(cells.size());
     for (const Sample& cell : cells)
         sights.push_back({cell.position});
     const std::vector<bool> visible = engine.visible(T_world_sensor, sights);

@@ -170,23 +170,6 @@ Caster::Caster(std::shared_ptr<const Trees> trees,
         placed_trees_.push_back(
             std::make_shared<PlacedTree>(*trees_, 0, true, std::span<const Pose>{}, true));
     }
-    constexpr float infinite = std::numeric_limits<float>::infinity();
-    low_ = infinite;
-    high_ = -infinite;
-    const auto include = [&](const EmbreeTree& tree) {
-        RTCBounds box;
-        rtcGetSceneBounds(tree.get(), &box);
-        low_ = low_.min(Eigen::Array3f(box.lower_x, box.lower_y, box.lower_z));
-        high_ = high_.max(Eigen::Array3f(box.upper_x, box.upper_y, box.upper_z));
-    };
-    if (placed_trees_.empty()) include(trees_->trees[0]);
-    for (const auto& placed_tree : placed_trees_)
-        include(placed_tree->tree);
-    if ((low_ > high_).any()) return;
-    // Widened, since rounding may let a ray meet a surface slightly outside.
-    const float rounding = 0x1p-20F * low_.abs().max(high_.abs()).maxCoeff();
-    low_ -= rounding;
-    high_ += rounding;
 }
 
 Caster::Caster(const Scene& scene) : Caster(make_trees(scene), {}) {}
@@ -298,12 +281,8 @@ void Caster::trace(const RayList& list, std::span<std::uint32_t> facets) const {
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
-                  float reach_m, std::span<std::uint32_t> facets, RaySpread spread) const {
-    trace({.origins = {&origin, 0},
-           .directions = directions,
-           .reach_m = {&reach_m, 0},
-           .spread = spread},
-          facets);
+                  float reach_m, std::span<std::uint32_t> facets) const {
+    trace({.origins = {&origin, 0}, .directions = directions, .reach_m = {&reach_m, 0}}, facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
@@ -320,6 +299,19 @@ void Caster::cast_any(const Eigen::Vector3f& origin, std::span<const Eigen::Vect
            .reach_m = {reach_m.data(), 1},
            .any_hit = true},
           facets);
+}
+
+std::vector<MetFacet> Caster::cast_through(std::span<const Eigen::Vector3f> origins,
+                                           std::span<const Eigen::Vector3f> directions,
+                                           std::span<const float> reach_m) const {
+    std::vector<MetFacet> met;
+    trace({.origins = {origins.data(), 1},
+           .directions = directions,
+           .reach_m = {reach_m.data(), 1},
+           .all = &met},
+          {});
+    std::ranges::sort(met);
+    return met;
 }
 
 }  // namespace sonarsim

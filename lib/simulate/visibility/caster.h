@@ -38,14 +38,12 @@ class Caster {
     std::span<const Pose> body_poses() const { return T_world_body_; }
 
     /// Rays from one point: `facets[i]` is the facet that direction i meets within `reach_m`, or
-    /// `nothing`. Neighbours in the list should be neighbours in space, or else `spread` wide.
+    /// `nothing`. Neighbours in the list should be neighbours in space.
     /// Scene-local frame.
     void cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
-              float reach_m, std::span<std::uint32_t> facets,
-              RaySpread spread = RaySpread::close) const;
+              float reach_m, std::span<std::uint32_t> facets) const;
 
-    /// Rays from many points. Neighbours in the list should be neighbours in space here, too, as
-    /// specular reflections of neighbouring rays are.
+    /// Rays from many points. Neighbours in the list should be neighbours in space here, too.
     void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
               std::span<std::uint32_t> facets,
               float reach_m = std::numeric_limits<float>::infinity()) const;
@@ -54,13 +52,10 @@ class Caster {
     void cast_any(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
                   std::span<const float> reach_m, std::span<std::uint32_t> facets) const;
 
-    /// False if a ray surely meets nothing: it starts outside of the box around the whole scene and
-    /// leads away from it.
-    bool may_meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
-        const auto beyond = origin.array() > high_ && direction.array() >= 0.0F;
-        const auto below = origin.array() < low_ && direction.array() <= 0.0F;
-        return !(beyond || below).any();
-    }
+    /// Rays from many points: all facets that they meet within `reach_m`, by ray and distance.
+    std::vector<MetFacet> cast_through(std::span<const Eigen::Vector3f> origins,
+                                       std::span<const Eigen::Vector3f> directions,
+                                       std::span<const float> reach_m) const;
 
     /// The facet at its present pose, scene-local. Copies of a mesh have facet numbers of their
     /// own.
@@ -70,11 +65,6 @@ class Caster {
 
     /// The number of triangles of the scene with its bodies and all copies.
     std::size_t placed_triangles() const;
-
-    /// Prefetches a facet that is needed soon; `nothing` is allowed.
-    void prefetch(std::uint32_t index) const {
-        if (index < still_) __builtin_prefetch(&facets_[index]);
-    }
 
   private:
     friend class SharedTrees;
@@ -93,8 +83,7 @@ class Caster {
     std::vector<Pose> T_world_body_;
     /// Facets of the scene's own triangles, then of each other tree.
     const Facet* facets_ = nullptr;
-    std::uint32_t still_ = 0;    ///< number of the scene's own triangles
-    Eigen::Array3f low_, high_;  ///< box around the whole scene, scene-local, m
+    std::uint32_t still_ = 0;  ///< number of the scene's own triangles
 };
 
 /// Makes casters over scenes whose first file is often the same, as that of a mission's variants

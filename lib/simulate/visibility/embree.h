@@ -35,35 +35,32 @@ class EmbreeTree {
 /// Sets components that are rounding errors of zero to 0. Embree sorts coherent rays into octants
 /// by the signs of their components, but replaces a component nearer to zero than 1e-18 by +1e-18
 /// where it divides: all rays of the packet in the octant of a ray with -1e-19 would meet nothing.
-/// This turns a ray by at most 1e-9, a micrometre in a kilometre. Products of two components that
-/// pass stay above Embree's limit.
+/// This turns a ray by at most 1e-9. Products of two components that pass stay above the limit.
 inline float flush_to_zero(float component) {
     constexpr float rest = 1e-9F;
     return std::fabs(component) < rest ? 0.0F : component;
 }
 
-/// rtcIntersect8 or, if `any_hit`, rtcOccluded8. `close`: the rays lie close together. Embree then
-/// traverses its tree with the whole packet; otherwise it follows each ray where the packet
-/// divides. Filters of the meshes get `context`.
+/// rtcIntersect8 or, if `any_hit`, rtcOccluded8, through the tree with the whole packet. Filters of
+/// the meshes get `context`.
 #if SONARSIM_EMBREE == 3
 using QueryContext = RTCIntersectContext;
 
-inline void trace_8(const int* valid, RTCScene tree, bool any_hit, bool close, RTCRayHit8& rays,
+inline void trace_8(const int* valid, RTCScene tree, bool any_hit, RTCRayHit8& rays,
                     QueryContext& context) {
     rtcInitIntersectContext(&context);
-    context.flags =
-        close ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     if (any_hit) return rtcOccluded8(valid, tree, &context, &rays.ray);
     rtcIntersect8(valid, tree, &context, &rays);
 }
 #else
 using QueryContext = RTCRayQueryContext;
 
-inline void trace_8(const int* valid, RTCScene tree, bool any_hit, bool close, RTCRayHit8& rays,
+inline void trace_8(const int* valid, RTCScene tree, bool any_hit, RTCRayHit8& rays,
                     QueryContext& context) {
     rtcInitRayQueryContext(&context);
     const auto set = [&](auto& arguments) {
-        arguments.flags = close ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+        arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
         arguments.context = &context;
     };
     RTCOccludedArguments any;

@@ -99,6 +99,8 @@ struct TracedRay {
 struct Query {
     QueryContext context;
     const TracedLayer* layer;
+    std::vector<MetFacet>* all;  ///< null: the nearest alone
+    std::uint32_t first;         ///< number of the first ray
     std::array<TracedRay, packet> rays;
 };
 
@@ -117,10 +119,15 @@ void keep_hits(const RTCFilterFunctionNArguments* hits) {
         float& embree_m = RTCRayN_tfar(hits->ray, packet, k);
         const Candidate found =
             ray.candidate(mesh.facet(triangle), mesh.first_facet + triangle, embree_m);
-        if (found.distance_m <= ray.reach_m && ray.take(found))
-            embree_m = ray.embree_reach(found.distance_m);
-        else
+        if (query.all) {
+            if (found.distance_m <= ray.reach_m)
+                query.all->push_back({query.first + k, found.distance_m, found.facet});
             hits->valid[k] = 0;
+        } else if (found.distance_m <= ray.reach_m && ray.take(found)) {
+            embree_m = ray.embree_reach(found.distance_m);
+        } else {
+            hits->valid[k] = 0;
+        }
     }
 }
 
@@ -224,16 +231,17 @@ void trace_packets(std::span<const TracedLayer> layers, const RayList& list,
             rays.ray.tfar[k] = own.embree_reach(own.reach_m);
             valid[k] = k < count ? -1 : 0;
         }
+        query.first = static_cast<std::uint32_t>(first);
+        query.all = list.all;
         for (const TracedLayer& layer : layers) {
             query.layer = &layer;
             for (int k = 0; k < packet; ++k) {
                 rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
                 rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
             }
-            trace_8(valid, layer.tree, list.any_hit, list.spread == RaySpread::close, rays,
-                    query.context);
+            trace_8(valid, layer.tree, list.any_hit, rays, query.context);
         }
-        for (int k = 0; k < count; ++k)
+        for (int k = 0; !list.all && k < count; ++k)
             facets[first + k] = query.rays[k].facet();
     }
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "simulate/visibility/embree.h"
 #include "simulate/visibility/facet.h"
@@ -75,17 +76,15 @@ struct RayList {
     PerRay<Eigen::Vector3f> origins;
     std::span<const Eigen::Vector3f> directions;
     PerRay<float> reach_m;
-    bool any_hit = false;  ///< any facet within reach, not the nearest
-    RaySpread spread = RaySpread::close;
+    bool any_hit = false;                  ///< any facet within reach, not the nearest
+    std::vector<MetFacet>* all = nullptr;  ///< takes all facets within reach, in no order
 };
 
 /// Traces rays in packets to the nearest hit in any layer: `facets[i]` is the facet that ray i
-/// meets within its reach, or RTC_INVALID_GEOMETRY_ID.
-///
-/// Embree only proposes facets. Its distances contain estimates of reciprocals, in which makers of
-/// processors differ. Which facet is the nearest, and whether it is in reach, follows from the
-/// distance of the facet's plane. Among facets of one plane, to within rounding, the one with the
-/// least number counts.
+/// meets within its reach, or RTC_INVALID_GEOMETRY_ID; untouched if the list takes all.
+/// Embree only proposes facets, since makers of processors differ in its estimates of reciprocals.
+/// The distance of a facet's plane tells which is the nearest and whether it is in reach. If facets
+/// coincide to within rounding, the one with the least number counts.
 void trace_packets(std::span<const TracedLayer> layers, const RayList& list,
                    std::span<std::uint32_t> facets);
 

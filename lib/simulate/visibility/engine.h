@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -86,7 +89,16 @@ struct Intersection {
     Eigen::Vector3f normal;  ///< unit, facing the ray's origin
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
+
+    /// True if both surfaces are parts of one plane, to within rounding.
+    bool coincides(const Intersection& other) const {
+        return std::fabs(distance_m - other.distance_m) <= rounding_m + other.rounding_m &&
+               normal.cross(other.normal).lpNorm<1>() < 0x1p-18F;
+    }
 };
+
+/// Takes the number of a ray, and the surfaces that it passes.
+using UseSurfaces = std::function<void(std::size_t ray, std::span<const Intersection> surfaces)>;
 
 /// A point that the sonar may see.
 struct SightPoint {
@@ -121,13 +133,11 @@ class VisibilityEngine {
     virtual std::vector<bool> visible(const Pose& T_world_sensor,
                                       std::span<const SightPoint> points) const;
 
-    /// The same along the paths of sound from the sonar, which may bend: a ray starts at an
-    /// apparent place, leads away from the sonar, and ends at another apparent place within
-    /// `reach_m` of the sonar.
-    virtual void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays,
-                                  float /*reach_m*/, std::span<Intersection> intersections) const {
-        intersect(T_world_sensor, rays, intersections);
-    }
+    /// The surfaces along the paths of sound, which may bend: a ray starts at an apparent place,
+    /// leads away from the sonar, and ends within `reach_m` of the sonar. `use` is called for each
+    /// ray, in their order, with at most 64 surfaces; 8 where sound bends.
+    virtual void pass_surfaces(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
+                               const UseSurfaces& use) const;
 
     /// The engine with Scene::bodies at these poses. It shares everything else with this engine,
     /// and must not outlive it. Without this call bodies are invisible. Call it only for scenes

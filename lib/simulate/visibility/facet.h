@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
 #include <cstdint>
 
 namespace sonarsim {
@@ -13,10 +14,13 @@ struct Facet {
     std::uint32_t instance;
 };
 
-/// The distance between neighbours in a list of rays. It affects only the time.
-enum class RaySpread {
-    close,  ///< neighbours take similar paths through the scene
-    wide    ///< neighbours soon diverge
+/// A facet that a ray of a list meets.
+struct MetFacet {
+    std::uint32_t ray;
+    float distance_m;
+    std::uint32_t facet;
+
+    auto operator<=>(const MetFacet&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
 }  // namespace sonarsim

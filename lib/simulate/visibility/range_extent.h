@@ -33,8 +33,7 @@ struct PieceCounts {
 inline PieceCounts pieces_for_bins(float depth_u_m, float depth_v_m, float range_m, float bin_m) {
     // More pieces than this do not change the mean of a bin visibly.
     constexpr float max_pieces = 64.0F;
-    // A piece has one intensity, but v . n = H / r on a plane. If a piece spans no more than this
-    // share of its range, its ends are off by 0.25 % and its mean is right.
+    // A piece has one intensity, but v . n = H / r on a plane: its ends are off by half of this.
     constexpr float max_depth_by_range = 0.005F;
     const float along_m = std::max(bin_m, max_depth_by_range * range_m);
     const float across_m = 0.5F * bin_m;

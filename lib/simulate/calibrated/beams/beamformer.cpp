@@ -142,7 +142,7 @@ SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines
     for (int j = 0; j < beams; ++j)
         even = even && std::fabs(beam_sines[j] - (low + spacing * j)) < 1e-6 * spacing;
     if (even) {
-        const double parts = std::ceil(spacing * array.wavelengths / 0.7);
+        const double parts = std::ceil(spacing * array.wavelengths / 0.35);
         grid.step = spacing / parts;
     }
     grid.first = low - margin * grid.step;

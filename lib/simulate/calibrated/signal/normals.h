@@ -35,8 +35,7 @@ inline Complexes8 unit_vectors_of_8(Floats8 angle) {
     return {Floats8(1.0F) - 2.0F * s * s, 2.0F * s * c};
 }
 
-/// normal_pair() of 8 random words as complex numbers: real and imaginary part have variance 1. A
-/// compiler may call normal_pair() for each of them instead, which takes three times as long.
+/// normal_pair() of 8 random words as complex numbers: real and imaginary part have variance 1.
 inline Complexes8 complex_normals(Ints8 words) {
     const Floats8 upper = to_floats(words >> 12);
     const Floats8 lower = to_floats(words & 0xFFF);

@@ -5,8 +5,7 @@
 #include "simulate/calibrated/speckle/cell_footprints.h"
 
 // The drawing in docs/calibrated.md, section 2, shows the steps: the rows of larger cells under a
-// footprint, those that are split, and the points that lie on it. Cutting samples into pieces of
-// half a cell and hashing these takes three times as long.
+// footprint, those that are split, and the points that lie on it.
 
 namespace sonarsim {
 

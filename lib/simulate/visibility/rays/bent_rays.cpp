@@ -201,26 +201,41 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
     }
 }
 
-void intersect_bent_rays(const Caster& caster, const BentWater& water, const LocalPose& pose,
-                         std::span<const Ray> rays, float reach_m,
-                         std::span<Intersection> intersections) {
-    std::vector<Eigen::Vector3f> directions;
+void pass_bent_rays(const Caster& caster, const BentWater& water, const LocalPose& pose,
+                    std::span<const Ray> rays, float reach_m, int max_surfaces,
+                    const UseSurfaces& use) {
+    std::vector<std::vector<Intersection>> met(rays.size());
+    std::vector<std::size_t> active(rays.size());
+    std::iota(active.begin(), active.end(), std::size_t{0});
     std::vector<float> from_m;
-    for (const Ray& ray : rays) {
-        directions.emplace_back(pose.rotation * ray.direction);
+    for (const Ray& ray : rays)
         from_m.push_back(ray.origin.norm());
+    for (int layer = 0; layer < max_surfaces && !active.empty(); ++layer) {
+        std::vector<Eigen::Vector3f> directions;
+        std::vector<float> starts_m;
+        for (const std::size_t i : active) {
+            directions.emplace_back(pose.rotation * rays[i].direction);
+            starts_m.push_back(from_m[i]);
+        }
+        std::vector<BentHit> hits(active.size());
+        cast_bent_rays(caster, water, pose.position, directions, starts_m, reach_m, hits);
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+            const BentHit& hit = hits[k];
+            if (hit.facet == Caster::nothing || !(hit.range_m < reach_m)) continue;
+            const std::size_t i = active[k];
+            const Facet facet = caster.facet(hit.facet);
+            met[i].push_back({hit.range_m - rays[i].origin.norm(), static_cast<float>(water.sag_m),
+                              pose.rotation.transpose() * hit.normal, facet.material,
+                              facet.instance});
+            // The gap keeps the next ray from the same surface.
+            from_m[i] = hit.range_m + 2.0F * met[i].back().rounding_m / std::max(hit.cosine, 0.1F);
+            if (from_m[i] < reach_m) active[left++] = i;
+        }
+        active.resize(left);
     }
-    std::vector<BentHit> hits(rays.size());
-    cast_bent_rays(caster, water, pose.position, directions, from_m, reach_m, hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const BentHit& hit = hits[i];
-        intersections[i] = {std::numeric_limits<float>::infinity(), 0.0F, Eigen::Vector3f::Zero(),
-                            0, 0};
-        if (hit.facet == Caster::nothing) continue;
-        const Facet facet = caster.facet(hit.facet);
-        intersections[i] = {hit.range_m - from_m[i], static_cast<float>(water.sag_m),
-                            pose.rotation.transpose() * hit.normal, facet.material, facet.instance};
-    }
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        use(i, met[i]);
 }
 
 void apply_tube(const RayTube& tube, float range_m, Sample& sample) {

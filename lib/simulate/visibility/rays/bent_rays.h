@@ -41,10 +41,10 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
                     std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
                     float reach_m, std::span<BentHit> hits);
 
-/// VisibilityEngine::intersect_behind() where sound bends.
-void intersect_bent_rays(const Caster& caster, const BentWater& water, const LocalPose& pose,
-                         std::span<const Ray> rays, float reach_m,
-                         std::span<Intersection> intersections);
+/// VisibilityEngine::pass_surfaces() where sound bends: the first surfaces of each ray.
+void pass_bent_rays(const Caster& caster, const BentWater& water, const LocalPose& pose,
+                    std::span<const Ray> rays, float reach_m, int max_surfaces,
+                    const UseSurfaces& use);
 
 /// Sets the true area, angle and strength of a sample on an apparent plane, at the range `range_m`.
 void apply_tube(const RayTube& tube, float range_m, Sample& sample);

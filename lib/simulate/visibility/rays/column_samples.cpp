@@ -117,19 +117,22 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
 // extend from one range to at most this many times that range.
 constexpr float longest_ratio = 2.0F;
 
-bool too_long(float from_m, float to_m) {
-    return to_m > longest_ratio * from_m || from_m > longest_ratio * to_m;
+/// The range at which a patch that begins at `from_m` ends: `to_m`, or nearer if that is too far.
+float end_of_patch(float from_m, float to_m, const Sampling& sampling) {
+    if (to_m > from_m) return std::min({to_m, longest_ratio * from_m, from_m + sampling.longest_m});
+    return std::max({to_m, from_m / longest_ratio, from_m - sampling.longest_m});
 }
 
-/// Cuts a segment wherever its range doubles. Adds all patches but the last, which stays in
-/// `segment`. Only surface at grazing incidence extends so far.
+/// Cuts a segment that is too long. Adds all patches but the last, which stays in `segment`. Only
+/// surface at grazing incidence extends so far.
 void cut_off(const Context& context, const RayColumn& column, const CastRay& ray,
              const ColumnSides& sides, Segment& segment, std::vector<Sample>& items) {
     const Border end = segment.to;
     const float to_m = end.below_m;
-    while (too_long(segment.from.above_m, to_m)) {
+    while (true) {
         const float from_m = segment.from.above_m;
-        const float next_m = to_m > from_m ? longest_ratio * from_m : from_m / longest_ratio;
+        const float next_m = end_of_patch(from_m, to_m, context.sampling);
+        if (!(std::fabs(next_m - from_m) < std::fabs(to_m - from_m)) || next_m == from_m) break;
         // On a plane the cosine, and so the inverse range, is linear in a small angle.
         const float share = (1.0F / from_m - 1.0F / next_m) / (1.0F / from_m - 1.0F / to_m);
         segment.to.along = segment.from.along + share * (end.along - segment.from.along);
@@ -166,8 +169,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
             segment.may_end_across =
                 strip || !segment.from.continuous || !segment.to.continuous ||
                 segment.to.along - segment.from.along < short_segment * column.step;
-            if (too_long(segment.from.above_m, segment.to.below_m))
-                cut_off(context, column, ray, sides, segment, items);
+            cut_off(context, column, ray, sides, segment, items);
             items.push_back(piece(context, ray, sides, segment));
         }
         segment.from = segment.to;

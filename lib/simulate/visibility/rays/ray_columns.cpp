@@ -45,7 +45,7 @@ class ColumnCaster {
         for (const ViewColumn& column : view_columns_) {
             add_column(column, column.across, 0.5 * column.width, 0, sampling_.rays, true);
         }
-        cast(in_tiles(), RaySpread::close);
+        cast(in_tiles());
     }
 
     /// Casts edge strips over those parts of a column that disagree with a neighbour.
@@ -78,7 +78,7 @@ class ColumnCaster {
                 }
             }
         }
-        cast_new_rays(RaySpread::close);
+        cast_new_rays();
     }
 
     /// Splits the gaps between neighbouring rays until each is certain enough.
@@ -103,7 +103,7 @@ class ColumnCaster {
                     split_angle(out_.rays[gap.below], out_.rays[gap.above], reach_m_);
                 add_ray(out_.columns[gap.column].across, sincos_small(along), along);
             }
-            cast_new_rays(RaySpread::wide);
+            cast_new_rays();
             next_gaps.clear();
             for (int k = 0; k < static_cast<int>(gaps.size()); ++k) {
                 const Gap& gap = gaps[k];
@@ -178,14 +178,14 @@ class ColumnCaster {
         return order;
     }
 
-    void cast_new_rays(RaySpread spread) {
+    void cast_new_rays() {
         std::vector<int> order(out_.rays.size() - cast_count_);
         std::iota(order.begin(), order.end(), static_cast<int>(cast_count_));
-        cast(order, spread);
+        cast(order);
     }
 
     /// Casts the rays that have not been cast, in the given order.
-    void cast(const std::vector<int>& order, RaySpread spread) {
+    void cast(const std::vector<int>& order) {
         const std::size_t count = order.size();
         directions_.resize(count);
         facets_.resize(count);
@@ -193,12 +193,9 @@ class ColumnCaster {
             directions_[i] = pose_.rotation * out_.rays[order[i]].direction;
         }
         if (water_.profile) return cast_bent(order);
-        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_, spread);
+        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         for (std::size_t i = 0; i < count; ++i) {
-            // Prefetches: the facets of a large scene are scattered over main memory.
-            constexpr std::size_t ahead = 16;
-            if (i + ahead < count) caster_.prefetch(facets_[i + ahead]);
             CastRay& ray = out_.rays[order[i]];
             ray.facet = facets_[i];
             if (ray.missed()) continue;

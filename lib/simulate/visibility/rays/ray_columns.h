@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "simulate/visibility/caster.h"
@@ -29,6 +30,7 @@ struct Sampling {
     bool edge_strips = true;  ///< columns that disagree with a neighbour get edge strips
     float range_uncertainty_m = 0.0F;  ///< gaps with more than this are split
     float tolerance_m = 0.0F;  ///< largest difference of a neighbour's plane from a ray's range
+    float longest_m = std::numeric_limits<float>::max();  ///< greatest extent of a sample in range
     float tolerance_cosine = 0.1F;  ///< largest relative difference of a cosine between columns
 
     /// Spacing of the rays of a column that spans `span`, before gaps are split; same unit.
@@ -71,9 +73,8 @@ struct GapEstimate {
 /// The surface is continuous if the two planes are nearly one, or if they cross between the rays,
 /// at an edge between two facets, which is found exactly. The range uncertainty is the extent in
 /// range of the planes between the rays, weighted by the relative error of the cosine. If the
-/// surface is interrupted, the range uncertainty is the whole extent that either plane could cover
-/// before the other ray, up to `reach_m`, the greatest range of the view. The angle between the
-/// rays must be small.
+/// surface is interrupted, it is the whole extent that either plane could cover before the other
+/// ray, up to `reach_m`, the greatest range of the view. The angle between the rays must be small.
 GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sampling,
                          float reach_m);
 

@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// The number of rays, before gaps are split, that are cast together if the rays are dense. Over
-// rough ground splitting makes up to ten times as many, 64 bytes each: 40 MB.
+// The number of rays, before gaps are split, that are cast together if the rays are dense: 40 MB.
 constexpr int max_rays_together = 1 << 16;
 
 // Columns of a side-scan where energies add, per column that resolves surface; fitted.
@@ -41,12 +40,11 @@ class RaysEngine final : public VisibilityEngine {
         return samples;
     }
 
-    void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
-                          std::span<Intersection> intersections) const override {
-        if (!scene().sound_profile) return intersect(T_world_sensor, rays, intersections);
-        intersect_bent_rays(caster(), water(sag_of_sight_lines_m),
-                            local_pose(T_world_sensor, scene().origin), rays, reach_m,
-                            intersections);
+    void pass_surfaces(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
+                       const UseSurfaces& use) const override {
+        if (!scene().sound_profile)
+            return VisibilityEngine::pass_surfaces(T_world_sensor, rays, reach_m, use);
+        pass_bent(T_world_sensor, rays, reach_m, 8, use);
     }
 
     std::vector<bool> visible(const Pose& T_world_sensor,
@@ -58,14 +56,13 @@ class RaysEngine final : public VisibilityEngine {
             rays.push_back({Eigen::Vector3f::Zero(), point.position.normalized()});
             reach_m = std::max(reach_m, point.position.norm());
         }
-        std::vector<Intersection> met(points.size());
-        intersect_behind(T_world_sensor, rays, reach_m, met);
         std::vector<bool> out;
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            const float range = points[k].position.norm();
-            const float slack_m = points[k].slack_m + met[k].rounding_m;
-            out.push_back(!(met[k].distance_m < range - slack_m));
-        }
+        pass_bent(T_world_sensor, rays, reach_m, 1,
+                  [&](std::size_t k, std::span<const Intersection> met) {
+                      out.push_back(met.empty() || !(met[0].distance_m < points[k].position.norm() -
+                                                                             points[k].slack_m -
+                                                                             met[0].rounding_m));
+                  });
         return out;
     }
 
@@ -91,6 +88,13 @@ class RaysEngine final : public VisibilityEngine {
     int beams_together(const View& view, const Sampling& sampling) const {
         if (density_ == 1 && along_ == 1) return std::max(view.beams, 1);
         return std::max(max_rays_together / (sampling.columns * sampling.rays), 1);
+    }
+
+    void pass_bent(const Pose& T_world_sensor, std::span<const Ray> rays, float reach_m,
+                   int max_surfaces, const UseSurfaces& use) const {
+        pass_bent_rays(caster(), water(sag_of_sight_lines_m),
+                       local_pose(T_world_sensor, scene().origin), rays, reach_m, max_surfaces,
+                       use);
     }
 
     BentWater water(double sag_m) const {

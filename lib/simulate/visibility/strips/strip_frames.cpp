@@ -13,7 +13,6 @@ constexpr double widest_sector = 2.1;  // rad
 // sector.
 constexpr double widest_side = 0.2;  // rad
 
-constexpr double widest_column = 0.0088;      // fan, rad
 constexpr double widest_side_column = 0.035;  // sides, rad
 constexpr int cone_columns = 32;
 
@@ -47,7 +46,7 @@ void set_border(ColumnFrame::Border border, double half_angle, ColumnFrame& fram
 
 /// Sectors of whole beams, or of parts of one beam.
 void add_fan(const View& view, std::vector<ColumnFrame>& frames) {
-    const int per_beam = at_least_one(view.azimuth_rad / view.beams, widest_column);
+    const int per_beam = at_least_one(view.azimuth_rad / view.beams, widest_column_rad);
     const int columns = view.beams * per_beam;
     const double width = view.azimuth_rad / columns;
     const int enough = at_least_one(view.azimuth_rad, widest_sector);

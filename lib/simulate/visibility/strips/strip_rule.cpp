@@ -14,6 +14,9 @@ constexpr double finest_goal = 0.003;
 constexpr float by_thinness = 1.3F;
 constexpr float max_by_thinness = 4.0F;
 
+// Views of energies that are thinner than this have at least two parts.
+constexpr float thin_view = 0.28F;
+
 // Columns of a side where energies add: the beam receives most from its middle.
 constexpr float side_columns = 13.0F;
 
@@ -35,6 +38,7 @@ StripRule strip_rule(const View& view) {
     StripRule rule{};
     rule.columns = 1.0F / finer;
     if (view.energies_add && view.shape == ViewShape::port_starboard) rule.columns *= side_columns;
+    rule.energies_add = view.energies_add;
     rule.bin_m = bin_m;
     rule.range_max_m = static_cast<float>(view.range_max_m);
     rule.sag_m = 0.09F * finer * bin_m;
@@ -54,8 +58,9 @@ StripRule strip_rule(const View& view) {
 
 int column_parts(const StripRule& rule, float thinness) {
     constexpr float rounding = 1e-3F;
-    return static_cast<int>(
-        rule.columns * std::min(1.0F + by_thinness * thinness, max_by_thinness) + rounding);
+    const float least = rule.energies_add && thinness > thin_view ? 2.0F : 1.0F;
+    const float parts = std::clamp(1.0F + by_thinness * thinness, least, max_by_thinness);
+    return static_cast<int>(rule.columns * parts + rounding);
 }
 
 }  // namespace sonarsim

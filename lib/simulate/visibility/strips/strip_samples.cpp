@@ -140,30 +140,19 @@ int StripSamples::parts_across(const Quad& quad, const Ranges& r) const {
     return static_cast<int>(std::min(parts, max_parts_across));
 }
 
-/// At most the distance of a quadrilateral: that of its sides, less half of its greater width.
-float StripSamples::distance_bound(const Quad& quad) {
-    const auto distance = [](const Vector3f& from, const Vector3f& to) {
-        const Vector3f along = to - from;
-        const float at = -from.dot(along) / (along.squaredNorm() + min_length);
-        return (from + std::clamp(at, 0.0F, 1.0F) * along).norm();
-    };
-    const float width2 = std::max((quad.far_low - quad.near_low).squaredNorm(),
-                                  (quad.far_high - quad.near_high).squaredNorm());
-    return std::min(distance(quad.near_low, quad.near_high),
-                    distance(quad.far_low, quad.far_high)) -
-           0.5F * std::sqrt(width2);
-}
-
 void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad) {
     const Ranges r{quad.near_low.norm(), quad.near_high.norm(), quad.far_low.norm(),
                    quad.far_high.norm()};
     const float nearest = std::min({r.near_low, r.near_high, r.far_low, r.far_high});
-    const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
-    if (nearest > end && distance_bound(quad) > end) return;
-    const int parts = parts_across(quad, r);
     // The range of an edge of length l bends by at most l^2 / (8 r).
     const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
                                     (quad.far_high - quad.far_low).squaredNorm());
+    const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
+    if (nearest > end &&
+        nearest - end >
+            std::sqrt(std::max(longest2, (quad.far_high - quad.near_low).squaredNorm())))
+        return;
+    const int parts = parts_across(quad, r);
     const float depth = 0.5F * std::fabs(r.near_high + r.far_high - r.near_low - r.far_low);
     const float in_beam = rule_.along_rad * nearest;
     const bool is_short = longest2 < 7.0F * rule_.sag_m * nearest &&

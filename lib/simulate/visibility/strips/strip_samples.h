@@ -14,6 +14,7 @@ namespace sonarsim {
 /// Limits of columns and samples that keep a view's image within its error goal.
 struct StripRule {
     float columns;  ///< parts of each least column, if nothing in view is thin
+    bool energies_add;
     float bin_m;
     float range_max_m;
     float sag_m;      ///< largest deviation of a sample's range from the linear one
@@ -107,7 +108,6 @@ class StripSamples {
 
     std::pair<float, float> ends(const Strip& strip) const;
     Eigen::Vector3f point(const Strip& strip, float u, float w) const;
-    static float distance_bound(const Quad& quad);
     void add_quad(const StripTriangle& triangle, const Quad& quad);
     int parts_across(const Quad& quad, const Ranges& range) const;
     int parts_along(const Quad& quad, float& low_width, float& high_width) const;

@@ -229,9 +229,13 @@ class TriangleProjection {
         if (clipped) return;
         const float upright = t.w_max - t.w_min;
         const float length = std::max(upright, t.u2 - t.u0);
-        picture_ += picture;
+        // Ground far above or below the boresight counts little: a picture stretches there.
+        const float mean_w = 0.5F * (t.w_min + t.w_max);
+        const float secant2 = 1.0F + mean_w * mean_w;
+        const float weight = 1.0F / (secant2 * secant2);
+        picture_ += weight * picture;
         if (2.0F * picture < column_width_ * length && length > thin_columns * column_width_)
-            thin_ += column_width_ * upright;
+            thin_ += weight * column_width_ * upright;
     }
 
     const ClustersInView& clusters_;
