@@ -14,7 +14,7 @@ constexpr double finest_goal = 0.003;
 constexpr float by_thinness = 1.3F;
 constexpr float max_by_thinness = 4.0F;
 
-// Views of energies that are thinner than this have at least two parts.
+// Views of energies that are thinner than this have at least two parts; fitted to a wreck.
 constexpr float thin_view = 0.28F;
 
 // Columns of a side where energies add: the beam receives most from its middle.
@@ -59,8 +59,8 @@ StripRule strip_rule(const View& view) {
 int column_parts(const StripRule& rule, float thinness) {
     constexpr float rounding = 1e-3F;
     const float least = rule.energies_add && thinness > thin_view ? 2.0F : 1.0F;
-    const float parts = std::clamp(1.0F + by_thinness * thinness, least, max_by_thinness);
-    return static_cast<int>(rule.columns * parts + rounding);
+    const float parts = rule.columns * std::min(1.0F + by_thinness * thinness, max_by_thinness);
+    return static_cast<int>(std::max(parts, least) + rounding);
 }
 
 }  // namespace sonarsim
