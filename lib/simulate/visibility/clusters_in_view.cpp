@@ -53,50 +53,45 @@ std::vector<std::uint32_t> along_morton_curve(const MeshView& mesh) {
     return order;
 }
 
-/// Appends a cluster of the given triangles.
-void add_cluster(const MeshView& from, std::span<const std::uint32_t> triangles,
-                 ClusterMesh& mesh) {
-    std::vector<TriangleCorners> all;
-    std::vector<std::uint32_t> used;
-    for (const std::uint32_t triangle : triangles) {
-        const TriangleCorners& corners = all.emplace_back(from.triangles[triangle]);
-        used.insert(used.end(), corners.begin(), corners.end());
-    }
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-
-    TriangleCluster cluster{ball_around(from.vertices, all)};
-    cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
-    cluster.vertices = static_cast<std::uint32_t>(used.size());
-    cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
-    cluster.triangles = static_cast<std::uint32_t>(triangles.size());
-    for (const std::uint32_t vertex : used)
-        mesh.vertices.push_back(from.vertices[vertex]);
-    for (const std::uint32_t triangle : triangles) {
-        const TriangleCorners& corners = from.triangles[triangle];
-        std::array<std::uint8_t, 3> local{};
-        for (int k = 0; k < 3; ++k) {
-            const auto at = std::ranges::lower_bound(used, corners[k]);
-            local[k] = static_cast<std::uint8_t>(at - used.begin());
-        }
-        mesh.corners.push_back(local);
-        const Eigen::Vector3d normal = cross_of(from.vertices, corners).normalized();
-        const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
-        mesh.facets.push_back(
-            {normal.cast<float>(), from.materials[triangle], from.instances[owner], triangle});
-    }
-    mesh.clusters.push_back(cluster);
-}
-
 ClusterMesh make_clusters(const MeshView& from) {
+    /// A vertex in the last cluster that has it. Clusters count from 1.
+    struct Place {
+        std::size_t cluster = 0;
+        std::uint8_t index = 0;
+    };
+    std::vector<Place> places(from.vertices.size());
+    std::vector<TriangleCorners> all;
     ClusterMesh mesh;
     const std::vector<std::uint32_t> order = along_morton_curve(from);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
     for (std::size_t first = 0; first < order.size(); first += ClusterMesh::max_triangles) {
-        const std::size_t count =
-            std::min<std::size_t>(ClusterMesh::max_triangles, order.size() - first);
-        add_cluster(from, std::span(order).subspan(first, count), mesh);
+        TriangleCluster cluster;
+        cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+        cluster.first_triangle = static_cast<std::uint32_t>(first);
+        cluster.triangles =
+            std::min(ClusterMesh::max_triangles, static_cast<std::uint32_t>(order.size() - first));
+        all.clear();
+        for (const std::uint32_t triangle : std::span(order).subspan(first, cluster.triangles)) {
+            const TriangleCorners& corners = all.emplace_back(from.triangles[triangle]);
+            std::array<std::uint8_t, 3> local{};
+            for (int k = 0; k < 3; ++k) {
+                Place& place = places[corners[k]];
+                if (place.cluster != mesh.clusters.size() + 1) {
+                    place = {mesh.clusters.size() + 1,
+                             static_cast<std::uint8_t>(cluster.vertices++)};
+                    mesh.vertices.push_back(from.vertices[corners[k]]);
+                }
+                local[k] = place.index;
+            }
+            mesh.corners.push_back(local);
+            const Eigen::Vector3d normal = cross_of(from.vertices, corners).normalized();
+            const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
+            mesh.facets.push_back(
+                {normal.cast<float>(), from.materials[triangle], from.instances[owner], triangle});
+        }
+        static_cast<Ball&>(cluster) = ball_around(from.vertices, all);
+        mesh.clusters.push_back(cluster);
     }
     return mesh;
 }
