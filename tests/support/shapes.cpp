@@ -81,12 +81,17 @@ Scene floor_scene(float half_size, float z, float reflection, int n) {
 
 void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& max,
              std::uint32_t material) {
+    const std::array sides{min, max};
     for (int axis = 0; axis < 3; ++axis) {
-        for (const Eigen::Vector3f& side : {min, max}) {
+        for (const Eigen::Vector3f& side : sides) {
             Eigen::Vector3f a = min;
             Eigen::Vector3f c = max;
             a[axis] = c[axis] = side[axis];
             add_rectangle(scene, a, c, material);
+            if ((&side != sides.data()) == (axis != 1)) continue;
+            for (auto triangle = scene.triangles.end() - 2; triangle != scene.triangles.end();
+                 ++triangle)
+                std::swap((*triangle)[1], (*triangle)[2]);
         }
     }
 }
@@ -130,7 +135,7 @@ void add_bar(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b, f
         add_triangle(scene, rim(a, k), rim(a, k + 1), rim(b, k + 1), material);
         add_triangle(scene, rim(a, k), rim(b, k + 1), rim(b, k), material);
         if (!closed) continue;
-        add_triangle(scene, a, rim(a, k), rim(a, k + 1), material);
+        add_triangle(scene, a, rim(a, k + 1), rim(a, k), material);
         add_triangle(scene, b, rim(b, k), rim(b, k + 1), material);
     }
 }

@@ -2,11 +2,42 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <tuple>
 
 #include "core/groups.h"
 
 namespace sonarsim {
+
+namespace {
+
+/// A hash of an edge: that of the opposite direction is its negative. Those of a closed part add up
+/// to 0.
+std::uint64_t hash_of_edge(std::uint32_t from, std::uint32_t to) {
+    if (from == to) return 0;
+    constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U;
+    std::uint64_t hash = std::uint64_t{std::min(from, to)} << 32U | std::max(from, to);
+    hash = (hash ^ hash >> 31U) * odd;
+    hash = (hash ^ hash >> 29U) * odd;
+    hash ^= hash >> 32U;
+    return from < to ? hash : -hash;
+}
+
+/// Sums over a part of a mesh.
+struct PartSums {
+    Eigen::AlignedBox3f box;
+    std::uint64_t edges = 0;
+    double volume = 0.0;  ///< times 6, m^3
+    double area = 0.0;    ///< times 2, m^2
+
+    Solid solid() const {
+        constexpr double least = 1e-5;  // a sphere has 0.2
+        if (edges != 0 || !(std::fabs(volume) > least * area * std::sqrt(area))) return {};
+        return {box, volume > 0.0 ? 1.0F : -1.0F};
+    }
+};
+
+}  // namespace
 
 Ball ball_around(std::span<const Eigen::Vector3f> vertices,
                  std::span<const TriangleCorners> triangles) {
@@ -64,6 +95,38 @@ std::vector<MeshSide> sides_by_edge(std::span<const TriangleCorners> triangles,
                           [](const MeshSide& s) { return std::tuple(s.high, s.triangle, s.side); });
     }
     return sides;
+}
+
+Solids find_solids(std::span<const Eigen::Vector3f> vertices,
+                   std::span<const TriangleCorners> triangles) {
+    const std::vector<std::uint32_t> first = first_at_place(vertices);
+    JoinedSets parts(vertices.size());
+    for (const TriangleCorners& c : triangles) {
+        parts.join(first[c[0]], first[c[1]]);
+        parts.join(first[c[0]], first[c[2]]);
+    }
+    std::vector<std::uint32_t> number(vertices.size());  // of a part's vertex, from 1
+    std::vector<PartSums> sums(1);
+    Solids out;
+    for (const TriangleCorners& c : triangles) {
+        const std::uint32_t part = parts.of(first[c[0]]);
+        if (number[part] == 0) {
+            number[part] = static_cast<std::uint32_t>(sums.size());
+            sums.emplace_back();
+        }
+        out.of_triangles.push_back(number[part]);
+        PartSums& sum = sums[number[part]];
+        const Eigen::Vector3d cross = cross_of(vertices, c);
+        sum.volume += cross.dot((vertices[c[0]] - vertices[part]).cast<double>());
+        sum.area += cross.norm();
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum.box.extend(vertices[c[k]]);
+            sum.edges += hash_of_edge(first[c[k]], first[c[(k + 1) % 3]]);
+        }
+    }
+    for (std::size_t k = 1; k < sums.size(); ++k)
+        out.items.push_back(sums[k].solid());
+    return out;
 }
 
 }  // namespace sonarsim

@@ -45,6 +45,24 @@ struct MeshSide {
 std::vector<MeshSide> sides_by_edge(std::span<const TriangleCorners> triangles,
                                     std::size_t vertices);
 
+/// A closed part of a mesh. From outside of its box a line of sight meets a side of it that faces
+/// the eye before any that does not.
+struct Solid {
+    Eigen::AlignedBox3f box;
+    float outward = 0.0F;  ///< 1: its normals point outwards, -1: inwards, 0: no solid
+};
+
+/// The solids of a mesh.
+struct Solids {
+    std::vector<Solid> items = {{}};          ///< the first stands for open parts
+    std::vector<std::uint32_t> of_triangles;  ///< indices into `items`
+};
+
+/// Parts whose triangles share vertices are solids if each edge occurs as often from its one end as
+/// from its other, and the part has a volume.
+Solids find_solids(std::span<const Eigen::Vector3f> vertices,
+                   std::span<const TriangleCorners> triangles);
+
 /// Disjoint sets of the numbers from 0 to before `count` (union-find).
 class JoinedSets {
   public:

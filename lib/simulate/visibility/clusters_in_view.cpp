@@ -62,6 +62,7 @@ ClusterMesh make_clusters(const MeshView& from) {
     std::vector<Place> places(from.vertices.size());
     std::vector<TriangleCorners> all;
     ClusterMesh mesh;
+    Solids solids = find_solids(from.vertices, from.triangles);
     const std::vector<std::uint32_t> order = along_morton_curve(from);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
@@ -87,22 +88,34 @@ ClusterMesh make_clusters(const MeshView& from) {
             mesh.corners.push_back(local);
             const Eigen::Vector3d normal = cross_of(from.vertices, corners).normalized();
             const std::size_t owner = from.instances.size() == 1 ? 0 : triangle;
-            mesh.facets.push_back(
-                {normal.cast<float>(), from.materials[triangle], from.instances[owner], triangle});
+            mesh.facets.push_back({normal.cast<float>(), from.materials[triangle],
+                                   from.instances[owner], triangle, solids.of_triangles[triangle]});
         }
         static_cast<Ball&>(cluster) = ball_around(from.vertices, all);
         mesh.clusters.push_back(cluster);
     }
+    mesh.solids = std::move(solids.items);
     return mesh;
+}
+
+/// Appends ClustersInView::own_outward of a mesh. A sensor nearer to a box than the margin counts
+/// as inside.
+void add_outward(const ClusterMesh& mesh, const Eigen::Vector3f& sensor, float margin_m,
+                 std::vector<float>& out) {
+    for (const Solid& solid : mesh.solids)
+        out.push_back(solid.box.exteriorDistance(sensor) > margin_m ? solid.outward : 0.0F);
 }
 
 /// Places the clusters of a mesh that may lie in a view. Scene-local.
 class ClusterPlacer {
   public:
-    ClusterPlacer(const ViewVolume& volume, std::size_t first_number, ClusterMesh& out)
+    ClusterPlacer(const ViewVolume& volume, std::size_t first_number, float margin_m,
+                  ClustersInView& out)
         : volume_(volume),
           position_(volume.position().cast<float>()),
-          out_(out),
+          margin_m_(margin_m),
+          out_(out.placed),
+          outward_(out.placed_outward),
           next_number_(static_cast<std::uint32_t>(first_number)) {}
 
     /// `T_local_mesh`: a rotation, a translation and a uniform scale. Triangles are numbered on in
@@ -116,6 +129,9 @@ class ClusterPlacer {
         scale_ = static_cast<float>(T_local_mesh.linear().col(0).norm());
         instance_ = instance;
         if (!may_be_visible(placed(whole))) return;
+        first_solid_ = static_cast<std::uint32_t>(outward_.size());
+        const Eigen::Vector3f sensor = R_.transpose() * (position_ - t_) / (scale_ * scale_);
+        add_outward(mesh, sensor, margin_m_ / scale_, outward_);
         for (const TriangleCluster& cluster : mesh.clusters) {
             if (const Ball ball = placed(cluster); may_be_visible(ball)) add(mesh, cluster, ball);
         }
@@ -141,19 +157,21 @@ class ClusterPlacer {
             out_.corners.push_back(mesh.corners[triangle]);
             const ClusterFacet& facet = mesh.facets[triangle];
             out_.facets.push_back({R_ * facet.normal / scale_, facet.material, instance_,
-                                   first_number_ + facet.number});
+                                   first_number_ + facet.number, first_solid_ + facet.solid});
         }
     }
 
     const ViewVolume& volume_;
     const Eigen::Vector3f position_;
+    const float margin_m_;
     ClusterMesh& out_;
+    std::vector<float>& outward_;
     std::uint32_t next_number_, first_number_ = 0;
     // The mesh:
     Eigen::Matrix3f R_;
     Eigen::Vector3f t_;
     float scale_ = 1.0F;
-    std::uint32_t instance_ = 0;
+    std::uint32_t instance_ = 0, first_solid_ = 0;
 };
 
 }  // namespace
@@ -175,10 +193,13 @@ SceneClusters::SceneClusters(const Scene& scene)
 
 ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
                                       std::span<const Pose> T_world_body) const {
-    ClustersInView out{local_pose(T_world_sensor, scene_.origin), own_, {}, {}};
+    ClustersInView out{local_pose(T_world_sensor, scene_.origin), own_, {}, {}, {}, {}};
     T_world_sensor.translation -= scene_.origin;
     const ViewVolume volume(view, T_world_sensor);
-    ClusterPlacer placer(volume, own_.facets.size(), out.placed);
+    constexpr float margin = 1e-4F;
+    const float margin_m = margin * static_cast<float>(view.range_max_m);
+    add_outward(own_, out.pose.position, margin_m, out.own_outward);
+    ClusterPlacer placer(volume, own_.facets.size(), margin_m, out);
     for (std::uint32_t k = 0; k < own_.clusters.size(); ++k) {
         if (placer.may_be_visible(own_.clusters[k])) out.own_clusters.push_back(k);
     }

@@ -19,6 +19,7 @@ struct ClusterFacet {
     std::uint32_t material;
     std::uint32_t instance;
     std::uint32_t number;  ///< the triangle in its mesh; a placed one in the whole scene
+    std::uint32_t solid;   ///< index into ClusterMesh::solids
 };
 
 /// Up to 64 neighbouring triangles, with a ball around them.
@@ -38,6 +39,7 @@ struct ClusterMesh {
     std::vector<Eigen::Vector3f> vertices;  ///< m
     std::vector<std::array<std::uint8_t, 3>> corners;
     std::vector<ClusterFacet> facets;
+    std::vector<Solid> solids;
 };
 
 /// The clusters that may lie in a view, scene-local.
@@ -46,11 +48,20 @@ struct ClustersInView {
     const ClusterMesh& own;                   ///< the scene's own surface,
     std::vector<std::uint32_t> own_clusters;  ///< and which of its clusters
     ClusterMesh placed;                       ///< bodies and copies
+    /// By solid of `own` and of `placed`: Solid::outward, but 0 where the sensor is in its box.
+    std::vector<float> own_outward, placed_outward;
 
     /// Facets of `placed` follow the own ones.
     const ClusterFacet& facet(std::uint32_t index) const {
         return index < own.facets.size() ? own.facets[index]
                                          : placed.facets[index - own.facets.size()];
+    }
+
+    /// 1 or -1: only if the facet's normal, or its opposite, faces the sensor it may be visible;
+    /// 0: from either side.
+    float outward(std::uint32_t index) const {
+        return index < own.facets.size() ? own_outward[own.facets[index].solid]
+                                         : placed_outward[facet(index).solid];
     }
 
     /// Calls visit(corners), in the frame of the sensor, for every triangle.

@@ -17,14 +17,18 @@ inline Samples visible(const Scene& scene, const View& view, const Pose& pose = 
     return visible(SceneClusters(scene), view, pose);
 }
 
-/// The solid angle that the samples fill.
-inline double filled_sr(const Samples& samples) {
+/// The solid angle that the samples of beams fill.
+inline double filled_sr(const Samples& samples, int first_beam, int end_beam) {
     double sum = 0.0;
-    for (const Sample& sample : samples.items) {
+    for (std::uint32_t i = samples.beam_begin[first_beam]; i < samples.beam_begin[end_beam]; ++i) {
+        const Sample& sample = samples.items[i];
         const auto r = static_cast<double>(sample.position.norm());
         sum += static_cast<double>(sample.area_m2 * sample.height_m) / (r * r * r);
     }
     return sum;
+}
+inline double filled_sr(const Samples& samples) {
+    return filled_sr(samples, 0, static_cast<int>(samples.beam_begin.size()) - 1);
 }
 
 }  // namespace sonarsim::test

@@ -180,6 +180,47 @@ TEST_CASE("strips: two wide beams have the surface of rods that stand in each of
     }
 }
 
+// Far sides of solids are left out. Without that they are hidden.
+TEST_CASE("strips: drawn solids look the same as open meshes, whichever way their normals point") {
+    Uniform random(11);
+    const View view = fan_view(120.0, 60.0, 32);
+    for (int trial = 0; trial < 12; ++trial) {
+        Scene scene = room_with_poles();
+        for (int k = 0; k < 6; ++k) {
+            const std::size_t first = scene.triangles.size();
+            const auto place = [&](float size) -> Eigen::Vector3f {
+                return {random.single(0.5, 4.0), size * random.single(-3.0, 3.0),
+                        size * random.single(-1.0, 1.0)};
+            };
+            const Eigen::Vector3f low = place(1.0F);
+            if (k % 2 == 0)
+                add_box(scene, low, low + Eigen::Vector3f(0.2F, 0.7F, random.single(0.2, 1.0)), 0);
+            else
+                add_bar(scene, low, place(0.5F), random.single(0.01, 0.3), 7, true, 0);
+            // Every third part is inside out.
+            for (std::size_t i = first; k % 3 == 0 && i < scene.triangles.size(); ++i)
+                std::swap(scene.triangles[i][0], scene.triangles[i][1]);
+        }
+        for (Eigen::Vector3f& vertex : scene.vertices)  // edges meet exactly
+            vertex = (1024.0F * vertex.array()).round() / 1024.0F;
+        // The room, its ball and four others. Poles have no caps.
+        const Solids solids = find_solids(scene.vertices, scene.triangles);
+        CHECK(std::ranges::count(solids.items, 1.0F, &Solid::outward) == 6);
+        CHECK(std::ranges::count(solids.items, -1.0F, &Solid::outward) == 2);
+        const SceneClusters clusters(scene);
+        const Pose pose{rotation_from_rpy(0.0, 0.2, 0.1), {0.1, 0.05, 0.2}};
+        ClustersInView in_view = clusters.in_view(view, pose, {});
+        const Samples near_sides = strips_surface(in_view, view);
+        std::ranges::fill(in_view.own_outward, 0.0F);
+        const Samples both_sides = strips_surface(in_view, view);
+        for (int j = 0; j < view.beams; ++j) {
+            CAPTURE_ALL(trial, j);
+            CHECK(filled_sr(near_sides, j, j + 1) ==
+                  doctest::Approx(filled_sr(both_sides, j, j + 1)).epsilon(1e-4));
+        }
+    }
+}
+
 TEST_CASE("strips: footprints tile the ground, and their areas are the surface's") {
     // Bumpy ground that hides parts of itself.
     Scene scene = empty_scene();

@@ -177,6 +177,11 @@ class TriangleProjection {
     }
 
     void add(const std::array<Vector3f, 3>& p, std::uint32_t facet, bool clipped) {
+        const ClusterFacet& data = clusters_.facet(facet);
+        const Vector3f normal = R_frame_local_ * data.normal;
+        const float d = normal.dot(p[0]);
+        const float outward = clusters_.outward(facet);
+        if (outward * d > 0.0F) return;
         std::array<float, 3> u, w, q;
         for (int k = 0; k < 3; ++k) {
             q[k] = 1.0F / p[k].x();
@@ -198,9 +203,6 @@ class TriangleProjection {
         t.w_max = std::max({w[0], w[1], w[2]});
         const float reach = frame_.reach_w(std::max(t.u0, u_low_), std::min(t.u2, u_high_));
         if (t.w_min >= reach || t.w_max <= -reach) return;
-        const ClusterFacet& data = clusters_.facet(facet);
-        const Vector3f normal = R_frame_local_ * data.normal;
-        const float d = normal.dot(p[0]);
         t.height_m = std::fabs(d);
         if (t.height_m > reach_m_) return;
         if (!(t.height_m > edge_on_share * p[0].norm())) {
@@ -232,7 +234,8 @@ class TriangleProjection {
         // Ground far above or below the boresight counts little: a picture stretches there.
         const float mean_w = 0.5F * (t.w_min + t.w_max);
         const float secant2 = 1.0F + mean_w * mean_w;
-        const float weight = 1.0F / (secant2 * secant2);
+        // The far side of a solid counts, too.
+        const float weight = (outward == 0.0F ? 1.0F : 2.0F) / (secant2 * secant2);
         picture_ += weight * picture;
         if (2.0F * picture < column_width_ * length && length > thin_columns * column_width_)
             thin_ += weight * column_width_ * upright;
