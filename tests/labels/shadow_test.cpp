@@ -1,5 +1,7 @@
 #include "simulate/labels/shadow.h"
 
+#include <set>
+
 #include "simulate/labels/hidden_surface.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
@@ -100,6 +102,28 @@ TEST_CASE("labels: the shadows of a sea floor are those that rays through all su
         CHECK(truth > 1000.0);
         CHECK(both / stated > 0.98);
         CHECK(both / truth > 0.98);
+    }
+}
+
+// A box from x = 4 to 6 m hides its own far side. The floor below it is out of view to 8.8 m.
+TEST_CASE("labels: a body in open water hides its own far side, whatever lies behind") {
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    set_range(config, 0.1, 12.0, 119);
+    const Sonar sonar = noise_free(config);
+    for (const float z : {-3.0F, -40.0F}) {
+        Scene scene = floor_scene(60.0F, z, 0.5F);
+        add_floor(scene, 60.0F, z - 1.0F, 0);
+        add_box(scene, {4.0F, -1.2F, -0.8F}, {6.0F, 1.2F, 0.8F}, 0);
+        for (const EngineKind type : {EngineKind::strips, EngineKind::rays}) {
+            const Labelled out = label(scene, sonar, Pose{}, type);
+            std::set<int> by;
+            for (int i = bin_at(sonar, 4.4); i < bin_at(sonar, 5.9); ++i)
+                by.insert(out.labels.shadow[out.at(i, sonar.settings.view.beams / 2)]);
+            CAPTURE_ALL(z, type, by.size());
+            REQUIRE(by.size() == 1);
+            CHECK(*by.begin() > 2);  // none of the floors
+        }
     }
 }
 

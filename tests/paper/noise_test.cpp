@@ -3,7 +3,9 @@
 #include "simulate/paper/echoes.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
+#include "support/draws.h"
 #include "support/patches.h"
+#include "support/sonars.h"
 #include "support/statistics.h"
 
 namespace {
@@ -163,6 +165,35 @@ TEST_CASE("a row becomes a streak when its share at normal incidence reaches the
     CHECK(reduced[0] == 0.25F);
     CHECK(reduced[1] == 1.0F);
     CHECK(reduced[5] == 2.0F);
+}
+
+// The floor at the depth h meets the range r at the cosine h / r. Its area to r grows as r^2, and
+// rows whose share is near the threshold are left out.
+TEST_CASE("streaks: the rows of a floor are those that lie within the angle") {
+    SonarConfig config = default_sonar(SonarKind::sidescan);
+    config.streaks = {StreakMode::reduce, 0.5, 14.0};
+    set_range(config, 1.0, 12.0, 100);
+    const Sonar sonar = noise_free(config);
+    Uniform draw(5);
+    for (int trial = 0; trial < 12; ++trial) {
+        const double h = draw.between(3.0, 8.0);
+        const Scene scene = floor_scene(60.0F, static_cast<float>(-h), 0.5F);
+        int least = 0, most = 0;
+        for (int i = 0; i < 100; ++i) {
+            const double near = std::max(sonar.range_edges_m[i], h);
+            const double far = sonar.range_edges_m[i + 1];
+            const double last = h / std::cos(radians(14.0));
+            const double share = (last * last - near * near) / (far * far - near * near);
+            least += far > h && share > 0.55 ? 1 : 0;
+            most += far > h && share > 0.45 ? 1 : 0;
+        }
+        for (const EngineKind type : {EngineKind::strips, EngineKind::rays}) {
+            const Ping ping = render_ping(sonar, scene, *engine_of(scene, type), Pose{}, {}, {});
+            CAPTURE_ALL(h, type, ping.counts.streak_rows, least, most);
+            CHECK(ping.counts.streak_rows >= static_cast<std::uint64_t>(least));
+            CHECK(ping.counts.streak_rows <= static_cast<std::uint64_t>(most));
+        }
+    }
 }
 
 TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {

@@ -71,7 +71,6 @@ class LineTracer {
     }
 
     HiddenSurface finish() {
-        drop_far_sides();
         HiddenSurface out{std::move(pieces_), {}};
         for (const SolidAngles& of : solid_angles_)
             out.visible_shares.push_back(static_cast<float>(of.visible / (of.visible + of.hidden)));
@@ -79,21 +78,6 @@ class LineTracer {
     }
 
   private:
-    /// A body's own far side is in a shadow only among other hidden surface of its beam.
-    void drop_far_sides() {
-        std::vector<Eigen::AlignedBox1f> others(width_.view.beams);
-        const auto extent = [](const HiddenPiece& piece) {
-            return Eigen::AlignedBox1f(Eigen::Matrix<float, 1, 1>(piece.range_m - piece.half_m),
-                                       Eigen::Matrix<float, 1, 1>(piece.range_m + piece.half_m));
-        };
-        for (const HiddenPiece& piece : pieces_) {
-            if (!piece.far_side) others[piece.beam].extend(extent(piece));
-        }
-        std::erase_if(pieces_, [&](const HiddenPiece& piece) {
-            return piece.far_side && !others[piece.beam].intersects(extent(piece));
-        });
-    }
-
     /// Records the surface that a line has met. True if the line continues.
     bool take(SightLine& line, const Intersection& met) {
         const bool was_shadow = is_shadow(line);
@@ -185,6 +169,20 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         tracer.record(lines[k], surfaces);
     });
     return tracer.finish();
+}
+
+void drop_far_sides(std::vector<HiddenPiece>& pieces, int beams) {
+    std::vector<Eigen::AlignedBox1f> others(beams);
+    const auto extent = [](const HiddenPiece& piece) {
+        return Eigen::AlignedBox1f(Eigen::Matrix<float, 1, 1>(piece.range_m - piece.half_m),
+                                   Eigen::Matrix<float, 1, 1>(piece.range_m + piece.half_m));
+    };
+    for (const HiddenPiece& piece : pieces) {
+        if (!piece.far_side) others[piece.beam].extend(extent(piece));
+    }
+    std::erase_if(pieces, [&](const HiddenPiece& piece) {
+        return piece.far_side && !others[piece.beam].intersects(extent(piece));
+    });
 }
 
 std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,

@@ -43,6 +43,10 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by);
 
+/// Drops the far sides of bodies, but not those among other hidden surface of their beam: a shadow
+/// behind a body begins where it ends.
+void drop_far_sides(std::vector<HiddenPiece>& pieces, int beams);
+
 /// 1 for the bins [beams, range bins] that hold hidden surface, else 0.
 std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,
                                       int beams);

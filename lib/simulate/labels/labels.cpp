@@ -191,18 +191,24 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     HiddenSurface hidden =
         find_hidden_surface(traced, echoes, view, objects, engine, directions,
                             request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
-    ShadowFinder all_finder(hidden.pieces, view);
+    std::vector<HiddenPiece> by_objects = hidden.pieces;
+    std::erase_if(by_objects, [&](const HiddenPiece& piece) {
+        return piece.behind_background || objects.is_background(piece.object);
+    });
+    drop_far_sides(by_objects, view.beams);
+    const std::vector<HiddenPiece>& pieces = request.shadow ? hidden.pieces : by_objects;
     const bool is_wide = view.energies_add && !echoes.cones.exist();
     std::vector<std::uint8_t> hidden_by_all;
-    if (is_wide || request.shadow) hidden_by_all = hidden_bins(hidden.pieces, bins, view.beams);
+    if (is_wide || request.shadow) hidden_by_all = hidden_bins(pieces, bins, view.beams);
     std::vector<std::vector<std::uint8_t>> above;
     const std::vector<std::uint32_t> ground = surfaces.ground();
     for (int j = 0; is_wide && j < view.beams; ++j) {
         above.push_back(
             bins_above_shadow(surfaces.sums(), j, ground, own(hidden_by_all, labels, j)));
     }
-    const auto find = [&](ShadowFinder& finder, std::vector<std::uint8_t> covered,
+    const auto find = [&](std::span<const HiddenPiece> by, std::vector<std::uint8_t> covered,
                           std::vector<std::uint16_t>& shadow) {
+        ShadowFinder finder(by, view);
         for (int j = 0; j < view.beams; ++j) {
             finder.find(j, own(covered, labels, j),
                         is_wide ? above[j] : surfaces.sums().occupied(j), own(shadow, labels, j));
@@ -210,7 +216,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     };
     if (request.shadow) {
         const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
-        find(all_finder,
+        find(hidden.pieces,
              by_triangles
                  ? covered_bins(request.triangles ? *request.triangles : SceneClusters(scene), view,
                                 traced.T_world_sensor, engine.body_poses())
@@ -218,14 +224,7 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
              labels.shadow);
     }
     if (request.annotations) {
-        std::vector<HiddenPiece> by_objects = hidden.pieces;
-        std::erase_if(by_objects, [&](const HiddenPiece& piece) {
-            return piece.behind_background || objects.is_background(piece.object);
-        });
-        std::optional<ShadowFinder> object_finder;  // none: no background hides anything
-        if (by_objects.size() < hidden.pieces.size()) object_finder.emplace(by_objects, view);
-        find(object_finder ? *object_finder : all_finder, hidden_bins(by_objects, bins, view.beams),
-             labels.object_shadow);
+        find(by_objects, hidden_bins(by_objects, bins, view.beams), labels.object_shadow);
     }
     for (std::uint32_t k = 0; !request.shadow && k < hidden.visible_shares.size(); ++k) {
         if (objects.is_background(k))

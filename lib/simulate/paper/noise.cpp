@@ -123,12 +123,33 @@ void RowAreas::add(const BinSums& beam) {
         all[i] += beam.weight(i);
 }
 
-std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine) {
+std::vector<Sample> near_normal_incidence(std::span<const Sample> samples, float min_cosine) {
     std::vector<Sample> out;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(out), [&](const Sample& s) {
-        return s.height_m > min_cosine * arrival_range(s.position);
+        const float extent = s.edge_u.norm() + 2.0F * s.edge_v.norm();
+        return s.height_m > min_cosine * (arrival_range(s.position) - extent);
     });
     return out;
+}
+
+void cut_to_normal_incidence(std::span<const Sample> samples, std::span<const std::uint32_t> ends,
+                             float min_cosine, RangeBoxes& echoes) {
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const float last_m = samples[k].height_m / min_cosine;
+        for (; i < ends[k]; ++i) {
+            const float near_m = echoes.range_m[i] - echoes.half_m[i];
+            const float far_m = std::min(echoes.range_m[i] + echoes.half_m[i], last_m);
+            if (!(far_m > near_m)) {
+                echoes.weight[i] = 0.0F;
+                continue;
+            }
+            const float half_m = 0.5F * (far_m - near_m);
+            echoes.weight[i] *= half_m / echoes.half_m[i];
+            echoes.range_m[i] = near_m + half_m;
+            echoes.half_m[i] = half_m;
+        }
+    }
 }
 
 std::uint64_t add_streaks(std::span<float> image, const RowAreas& areas, const Streaks& streaks) {

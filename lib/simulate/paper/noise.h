@@ -45,7 +45,13 @@ struct RowAreas {
     void add(const BinSums& beam);
 };
 
-std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine);
+/// The samples that may have a part at normal incidence.
+std::vector<Sample> near_normal_incidence(std::span<const Sample> samples, float min_cosine);
+
+/// Cuts the echoes of these samples, which end at `ends`, to the parts at normal incidence: a plane
+/// at the distance h is met at the range r with the cosine h / r.
+void cut_to_normal_incidence(std::span<const Sample> samples, std::span<const std::uint32_t> ends,
+                             float min_cosine, RangeBoxes& echoes);
 
 /// If the share at normal incidence reaches the threshold, the row I of `image` [rows, columns]
 /// becomes 1 - (1 - I)^2 (add, Eq. 14) or I^2 (reduce, Eq. 15). I is clamped to [0, 1] first, since

@@ -116,6 +116,16 @@ struct DirectEchoes {
         add_range_noise(echoes, range_noise, draws);
         return accumulate(echoes, bins, sums);
     }
+
+    /// Adds the parts at normal incidence.
+    void add_normal(std::span<const Sample> all, float min_cosine, BinSums& sums) {
+        const std::vector<Sample> samples = near_normal_incidence(all, min_cosine);
+        std::vector<std::uint32_t> ends;
+        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, &ends);
+        cut_to_normal_incidence(samples, ends, min_cosine, echoes);
+        add_range_noise(echoes, range_noise, draws);
+        accumulate(echoes, bins, sums);
+    }
 };
 
 }  // namespace
@@ -148,8 +158,7 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
         }
         if (wanted_streaks.exist()) {
             areas.add(sums);
-            direct.add(at_normal_incidence(traced.samples.beam(j), wanted_streaks.min_cosine),
-                       areas.normal);
+            direct.add_normal(traced.samples.beam(j), wanted_streaks.min_cosine, areas.normal);
         }
         ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
                                                bounced.beam_begin[j + 1], bins, sums);
