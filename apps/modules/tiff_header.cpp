@@ -92,9 +92,24 @@ int geo_key(const Values<std::uint16_t>& words, int key) {
     return 0;
 }
 
+/// True if the projected system of this EPSG code is in metres (registry of 2022: ranges without
+/// any other unit; some systems in metres lie outside).
+bool is_metric(int epsg) {
+    constexpr int ranges[][2] = {
+        {2000, 2065},   {2067, 2135},   {2137, 2154},   {2161, 2193},   {2315, 2866},
+        {2995, 3079},   {3168, 3358},   {3366, 3403},   {3408, 3416},   {3571, 3581},
+        {3761, 3989},   {3993, 4096},   {4462, 5469},   {5479, 5583},   {5659, 6125},
+        {6204, 6387},   {6634, 6784},   {6931, 6962},   {7374, 7586},   {7692, 8032},
+        {8677, 9741},   {9761, 20049},  {20064, 22293}, {22307, 24048}, {24600, 26722},
+        {26891, 27260}, {27391, 29333}, {30339, 32000}, {32100, 32161}, {32180, 32766}};
+    return std::ranges::any_of(
+        ranges, [&](const auto& range) { return epsg >= range[0] && epsg <= range[1]; });
+}
+
+constexpr int linear_units = 3076;  // ProjLinearUnitsGeoKey
+
 /// The length of the unit of the map's coordinates, m.
 double metres_of_unit(const Values<std::uint16_t>& keys) {
-    constexpr int linear_units = 3076;  // ProjLinearUnitsGeoKey
     switch (geo_key(keys, linear_units)) {
         case 0:
         case 9001:
@@ -128,9 +143,11 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
             "as with gdalwarp");
     }
     head.has_grid = 1;
-    head.in_degrees = geo_key(keys, model_type) == geographic ? 1 : 0;
     const int system = geo_key(keys, projected_system);
-    const double unit_m = head.in_degrees != 0 ? 1.0 : metres_of_unit(keys);
+    const bool in_degrees = geo_key(keys, model_type) == geographic;
+    const double unit_m = in_degrees ? 1.0 : metres_of_unit(keys);
+    const bool has_unit = geo_key(keys, linear_units) != 0 || system == 0 || is_metric(system);
+    head.unit = in_degrees ? 1 : has_unit ? 0 : 2;
     // Products have metres, which a system in feet would misplace.
     if (system != user_defined && unit_m == 1.0) head.epsg = static_cast<std::uint32_t>(system);
     const double column = scale.data[0];

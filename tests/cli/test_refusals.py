@@ -214,7 +214,7 @@ WARNED = (({"bottom.gltf": bottom(1000)}, "W04", "scene.units: mm"),
     (decibels("") | {"quarters.png": png([[0]])}, None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
     (edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, pixel_m: 4.5, origin_m: "
             "[1000, 5]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
-    (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),
+    (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface reflects no sound"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),
      None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
     (edited("scene:\n", "water: {profile: {named: summer}}\nscene:\n  water_surface: {height_m: 3}\n"),

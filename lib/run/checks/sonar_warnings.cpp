@@ -27,7 +27,8 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
     const bool cone = sonar.settings.view.shape == ViewShape::cone;
     add(WarningCode::elevation_too_narrow, why.elevation_too_narrow, why.elevation_deg.low,
         why.elevation_deg.high, cone ? "opening_deg" : "elevation_deg",
-        cone ? config.opening_deg : config.elevation_deg);
+        cone ? config.opening_deg : config.elevation_deg,
+        cone ? "angles off its axis" : "elevations");
     add(WarningCode::looks_elsewhere, why.elsewhere);
     add(WarningCode::nothing_near, why.nothing,
         why.nearest_m.empty()

@@ -54,8 +54,9 @@ void explain(const View& view, const Surroundings& around, double to_scene_m,
         if (beam_of(view, look.direction) >= 0) {
             in_view.take(distance);
         } else if (within && is_in_azimuth(view, look.direction)) {
-            const double off =
-                degrees(std::asin(std::clamp<double>(look.direction.z(), -1.0, 1.0)));
+            const double z = std::clamp<double>(look.direction.z(), -1.0, 1.0);
+            const double x = std::clamp<double>(look.direction.x(), -1.0, 1.0);
+            const double off = degrees(view.shape == ViewShape::cone ? std::acos(x) : std::asin(z));
             if (std::fabs(off) < std::fabs(flattest)) flattest = off;
         }
     }

@@ -43,8 +43,8 @@ constexpr WarningText table[] = {
      "in {0} of {1} pings all surface in view ends by {2:.4g} m, and range_min_m is {3:.4g}",
      "lower range_min_m", "one blind ping"},
     {WarningCode::elevation_too_narrow,
-     "in {0} of {1} pings the surface within the range lies only above or below its view, the "
-     "nearest at elevations of {2:.0f} to {3:.0f} degrees, and {4:s} is {5:.4g}",
+     "in {0} of {1} pings the surface within the range lies only outside its view, the nearest at "
+     "{6:s} of {2:.0f} to {3:.0f} degrees, and {4:s} is {5:.4g}",
      "raise {4:s}, or tilt the sonar with mount.rpy_deg (a positive pitch looks down)",
      "one blind ping"},
     {WarningCode::looks_elsewhere,

@@ -77,7 +77,8 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
         assembly.sonars, [](const Sonar& sonar) { return !sonar.settings.sources.empty(); });
     if (!multipath && !some_water_scatters(mission) && !mission.water.profile && !has_sources) {
         return name +
-               "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
+               "reflects no sound because no sensor has multipath, and gives depths alone: set "
+               "sensors.NAME.multipath.method";
     }
     if (multipath && config.roughness == 1.0)
         return name + "has no effect because a roughness of 1 reflects nothing: lower it";
@@ -237,7 +238,8 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     find_poses(mission, parts.bottom.get(), assembly);
     // 4. Maps of the ground, which replace materials.
     apply_ground_maps(mission.scene, materials, water, scene);
-    if (mission.scene.heightmap) assembly.epsg = epsg_of(mission.scene.heightmap->file);
+    if (const auto& map = mission.scene.heightmap; map && map->pixel_m == 0.0)
+        assembly.epsg = epsg_of(map->file);
     std::ranges::move(parts.orientation_warnings, std::back_inserter(scene.warnings));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);

@@ -19,9 +19,8 @@ namespace sonarsim {
 namespace {
 
 Trajectory form_of(const FileTrajectoryConfig& config) {
-    return read_named_at(config.place, [&] {
-        return resample(read_trajectory(config.file), config.rate_hz);
-    });
+    return read_named_at(config.place,
+                         [&] { return resample(read_trajectory(config.file), config.rate_hz); });
 }
 
 Trajectory form_of(const WaypointTrajectoryConfig& config) {
@@ -124,28 +123,32 @@ Trajectory path_of(TrajectoryConfig config) {
 void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& poses) {
     const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
     if (!lines || !(lines->altitude_m > 0.0)) return;
-    // A vehicle follows the ground within about its altitude, not ripples.
-    constexpr int steps = 2;
+    // A vehicle follows the ground within its altitude, not ripples. The points stay where they are
+    // and their weights fall to 0, so that no step of the ground is one of the vehicle.
+    constexpr int steps = 5;
+    const double step_m = lines->altitude_m / steps;
     for (TimedPose& pose : poses) {
         Eigen::Vector3d& at = pose.T_world_vehicle.translation;
+        const Eigen::Vector2d first = (at.head<2>() / step_m).array().ceil() - steps;
         double sum = 0.0;
-        int met = 0;
-        for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1); ++k) {
-            const Eigen::Vector2d off(k % (2 * steps + 1) - steps, k / (2 * steps + 1) - steps);
+        double weights = 0.0;
+        for (int k = 0; k < 4 * steps * steps; ++k) {
+            const Eigen::Vector2d point =
+                step_m * (first + Eigen::Vector2d(k % (2 * steps), k / (2 * steps)));
+            const double off = (point - at.head<2>()).norm() / lines->altitude_m;
             const std::optional<double> ground =
-                bottom ? bottom->highest(at.head<2>() + lines->altitude_m / (2 * steps) * off)
-                       : std::nullopt;
-            if (!ground) continue;
-            sum += *ground;
-            ++met;
+                bottom && off < 1.0 ? bottom->highest(point) : std::nullopt;
+            const double weight = (1.0 - off * off) * (1.0 - off * off);
+            sum += ground ? weight * *ground : 0.0;
+            weights += ground ? weight : 0.0;
         }
-        if (met == 0) {
+        if (weights == 0.0) {
             throw InputError({mission.scene.place.file},
                              "trajectory.lawnmower.altitude_m: there is no bottom below " +
                                  number_text(at.x()) + ", " + number_text(at.y()) +
                                  " m; name it in scene.bottom, or give z_m");
         }
-        at.z() += sum / met + lines->altitude_m;
+        at.z() += sum / weights + lines->altitude_m;
     }
 }
 

@@ -76,7 +76,8 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
     if (run.begin == run.end) run = {0, static_cast<int>(values.size()), 1.0, 1.0};  // all alike
     const double rival = run.rival / run.contrast;
     Sounding sounding;
-    sounding.quality = std::max(0.0, 1.0 - rival * rival);
+    // An echo may extend beyond the last bin, and then its middle is unknown.
+    sounding.quality = run.end < ping.range_bins ? std::max(0.0, 1.0 - rival * rival) : 0.0;
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
     if (sonar.config.model == ModelKind::calibrated) {
         sounding.quality *= unexplained_share(sonar, ping, beam, run, values, strongest);

@@ -65,7 +65,7 @@ TEST_CASE("a map that we write reads back as the same numbers in the same place"
     CHECK(image.grid->y_m == 5600295);
     CHECK(image.grid->column_m == 10);
     CHECK(image.grid->row_m == -10);
-    CHECK(!image.in_degrees);
+    CHECK(image.unit == Image::Unit::metre);
     CHECK(!image.has_no_data);  // NaN, which is no number anyway
 }
 
@@ -119,8 +119,15 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     const auto in_feet = map.translated("-a_srs EPSG:2263");
     CHECK(read_image(in_feet).grid->column_m == approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
     CHECK(epsg_of(in_feet) == 0);
+    // GeoTIFF 1.1 leaves the unit to the system.
+    const auto unit_of = [&](const char* system) {
+        return read_image(map.translated(std::string("-co GEOTIFF_VERSION=1.1 -a_srs ") + system))
+            .unit;
+    };
+    CHECK(unit_of("EPSG:2263") == Image::Unit::unnamed);
+    CHECK(unit_of("EPSG:32632") == Image::Unit::metre);
     const auto degrees = read_image(map.translated("-a_srs EPSG:4326"));
-    CHECK(degrees.in_degrees);
+    CHECK(degrees.unit == Image::Unit::degree);
     CHECK(degrees.grid->column_m == 0.25);
     const auto turned = map.translated("-co PROFILE=BASELINE", "turned.tif");
     write_file(map.folder.path / "turned.tfw", "1\n0.5\n0.5\n-1\n0\n0\n");

@@ -39,7 +39,8 @@ void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
     const std::string path = file.placed->file.string();
     if (!warned.emplace(path, file.placed->unit_m).second) return;
     scene.warnings.push_back(fmt::format(
-        "{} is {:.4g} m long; if that is wrong, set its `units`, as in units: mm", path, length_m));
+        "{} is {:.4g} m long; if that is wrong, set its {}", path, length_m,
+        file.placed->heightmap ? "`pixel_m` or `height_scale`" : "`units`, as in units: mm"));
 }
 
 /// Finds the extents of the files, and from them the origin of the scene.

@@ -17,7 +17,7 @@ struct SonarsimImageHead {
     /// 1: `grid` has the place of the pixels by the tags of a GeoTIFF: x and y of the centre of the
     /// first pixel, and the steps from one column and from one row to the next.
     std::uint32_t has_grid;
-    std::uint32_t in_degrees;
+    std::uint32_t unit;  ///< of `grid`; 0: metres, 1: degrees, 2: the file does not say
     std::uint32_t epsg;  ///< code of the projected reference system; 0: none
     double grid[4];
     char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none
@@ -39,6 +39,6 @@ namespace sonarsim {
 
 inline constexpr const char* image_module = "images";
 /// The number rises with every change above, so that a module of another version is not used.
-inline constexpr const char* image_module_symbol = "sonarsim_read_image_3";
+inline constexpr const char* image_module_symbol = "sonarsim_read_image_4";
 
 }  // namespace sonarsim

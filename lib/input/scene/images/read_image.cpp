@@ -120,7 +120,7 @@ void set_reference(const SonarsimImageHead& head, const std::filesystem::path& p
     image.grid = head.has_grid == 0
                      ? read_world_file(path)
                      : PixelGrid{head.grid[0], head.grid[1], head.grid[2], head.grid[3]};
-    image.in_degrees = head.in_degrees != 0;
+    image.unit = static_cast<Image::Unit>(head.unit);
     if (!image.grid) return;
     const auto& [x_m, y_m, column_m, row_m] = *image.grid;
     if (std::isfinite(x_m + y_m + column_m + row_m) && column_m != 0.0 && row_m != 0.0) return;
@@ -225,7 +225,13 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& 
                "lies next to it; write {}.pixel_m",
                section);
     }
-    if (image.in_degrees) {
+    if (image.unit == Image::Unit::unnamed) {
+        refuse(where,
+               "does not name the unit of length of its reference system; make a map in metres of "
+               "it, as with gdalwarp -t_srs EPSG:32632, or write {}.pixel_m",
+               section);
+    }
+    if (image.unit == Image::Unit::degree) {
         refuse(where,
                "has its pixels in degrees; make a map in metres of it, as with gdalwarp -t_srs "
                "EPSG:32632");

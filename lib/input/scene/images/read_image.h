@@ -37,8 +37,8 @@ struct Image {
     /// Rows from the top, in them pixels from the left, in them channels. NaN: no value.
     std::vector<float> values;
     std::optional<PixelGrid> grid;  ///< the place on its map, as the file has it
-    bool in_degrees = false;        ///< `grid` has longitudes and latitudes, not metres
-    bool has_no_data = false;       ///< the file names the value of pixels without one
+    enum class Unit { metre, degree, unnamed } unit = Unit::metre;  ///< that of `grid`
+    bool has_no_data = false;  ///< the file names the value of pixels without one
 
     /// The channels without that of transparency.
     int colours() const { return channels % 2 == 0 ? channels - 1 : channels; }
