@@ -70,6 +70,8 @@ $(if $(filter $(words $(points)),$(words $(sort $(folders)))),,$(error two point
 settings = $(subst !, ,$(1))
 value_of = $(patsubst $(2)=%,%,$(filter $(2)=%,$(call settings,$(1))))
 key = $(if $(filter $(1),$(noise_keys)),$(SENSOR:%=sensors.%.noise.$(1)),$(1))
+all_keys := $(foreach a,$(axes),$(call key,$(a)))
+$(if $(filter $(words $(all_keys)),$(words $(sort $(all_keys)))),,$(error two axes are one key: $(sort $(all_keys))))
 sets = $(foreach a,$(axes),$(foreach k,$(call key,$(a)),--set '$(k)=$(call value_of,$(1),$(a))'))
 
 # A stamp for each point. `render` says at once whether its dataset is complete, and of these inputs.

@@ -144,7 +144,7 @@ std::string warning_line(const LogOptions& options, const std::string& message) 
 }
 
 std::string result_line(std::string_view head, const std::string& rest) {
-    return fmt::format("{:<12}{}\n", head, printable(rest));
+    return fmt::format("{:<11} {}\n", head, printable(rest));
 }
 
 void print_result(std::string_view head, const std::string& rest) {

@@ -88,6 +88,8 @@ class Sweep(Sandbox):
         for arguments, shared in ((["SENSOR=fls", "add_sigma=0 0.1", "seed=1 2"], True),
                                   (["SENSOR=fls", "add_sigma=0.1", "seed=1 2"], False)):
             self.assertEqual("share a seed" in self.sweep("-n", *arguments).stderr, shared)
+        twice = self.sweep("SENSOR=fls", "add_sigma=0", "sensors.fls.noise.add_sigma=1", code=2)
+        self.assertIn("two axes are one key: sensors.fls.noise.add_sigma", twice.stderr)
 
     def test_a_point_that_fails(self):
         """The others are rendered, and the sweep reports which it was and why."""

@@ -12,7 +12,7 @@ SENSORS = [{"sensor_type": "DVLSensor"},
          "Azimuth": 60, "Elevation": 12, "RangeMin": 0.5, "RangeMax": 6, "RangeBins": 48, "AzimuthBins": 32,
          "AddSigma": 0.1, "MultCov": 0.04, "RangeSigma": 0.05, "ScaleNoise": True, "MultiPath": True,
          "ClusterSize": 4, "AzimuthStreaks": -1, "WaterDensity": 1025, "InitOctreeRange": 40}},
-    {"sensor_type": "SidescanSonar", "configuration": {"RangeMin": 0.5, "RangeMax": 8, "RangeRes": 0.05, "AddSigma": 0.02}},
+    {"sensor_type": "SidescanSonar", "configuration": {"RangeMax": 8, "RangeRes": 0.05, "AddSigma": 0.02}},
     {"sensor_type": "SinglebeamSonar", "configuration": {"OpeningAngle": 20}},
     {"sensor_type": "ProfilingSonar", "configuration": {"Elevation": 2, "AzimuthRes": 0.5, "Azimuth": 60}}]
 SCENARIO = {"name": "Dam Hovering", "main_agent": "auv0", "ticks_per_sec": 20, "octree_min": 0.02, "agents": [
@@ -59,7 +59,8 @@ class HoloOcean(ToolTest):
             self.assertIn("\n" + line + "\n", "\n" + text)
         self.assertIn('{"position_m": [0.5, 10.25, -0.5], "rpy_deg": [0, 0, 90]}', text)  # yaw 90 turns the bow to y
         for reported in ("'octree_min' has no counterpart", "agents[0].sensors[0].sensor_type 'DVLSensor' is left out",
-                         "agents[0].sensors[1]: 'InitOctreeRange' has no counterpart", "where its socket sits"):
+                         "agents[0].sensors[1]: 'InitOctreeRange' has no counterpart", "where its socket sits",
+                         "agents[0].sensors[2]: another water than the mission, which has one: density_kg_m3 is 1025"):
             self.assertIn(reported, result.stderr)
         self.assertEqual(len(self.validated(text)["sensors"]), 4)
         again = self.run_import(SCENARIO, "--out", "mission.yaml", code=2)

@@ -13,10 +13,13 @@ from .command import replaced, run
 
 NUMBER, NOT_IN_NAMES = (int, float), r"[^A-Za-z0-9_-]"
 CALLED = {dict: "an object", list: "a list", str: "text", bool: "true or false", NUMBER: "a number"}
-# The kind of HoloOcean, that of sonarsim, and the keys that it lacks. HoloOcean 2.4 has three forms of each.
-KINDS = (("ImagingSonar", "imaging", {"opening_deg"}), ("ProfilingSonar", "profiling", {"opening_deg"}),
-         ("SidescanSonar", "sidescan", {"opening_deg", "azimuth_bins", "noise.range_lambda_m"}),
-         ("SinglebeamSonar", "echosounder", {"azimuth_deg", "elevation_deg", "azimuth_bins"}))
+# The kind of HoloOcean, that of sonarsim, the keys that it lacks, and the default of RangeMin, RangeMax and Azimuth.
+# HoloOcean 2.4 has three forms of each.
+KINDS = (("ImagingSonar", "imaging", {"opening_deg"}, (0.1, 10, 120)),
+         ("ProfilingSonar", "profiling", {"opening_deg"}, (0.5, 75, 120)),
+         ("SidescanSonar", "sidescan", {"opening_deg", "azimuth_bins", "noise.range_lambda_m"}, (0.5, 35, 170)),
+         ("SinglebeamSonar", "echosounder", {"azimuth_deg", "elevation_deg", "azimuth_bins"}, (0.5, 10, 0)))
+WATER = {"density_kg_m3": 997, "sound_speed_m_s": 1480}     # the defaults
 SONARS = {form + name: kind for name, *kind in KINDS for form in ("", "Raycast", "GPU")}
 SONARS["SemanticRaycastSinglebeamSonar"] = SONARS["SinglebeamSonar"]
 REMARKS = {"SemanticRaycastSinglebeamSonar": "its labels: output.labels writes them"} | dict.fromkeys(
@@ -70,18 +73,18 @@ def vector(where, items, key):
     return values if len(values) == 3 else wrong(f"{where}{key} must be a list of 3 numbers")
 
 
-def value_of(where, items, name):
+def value_of(where, items, name, defaults):
     form, key, *limits = PARAMETERS[name]
     value = (take(where, items, name, bool, False) if form in ("flag", "multipath") else
              number(where, items, name, *limits))
     if form in ("whole", "streaks") and value != math.floor(value):
         wrong(f"{where}{name} must be a whole number, not {value}")
     if form == "width":
-        ends = ("RangeMin", "RangeMax") if key == "range_bins" else ("Azimuth",)
-        if not items.keys() >= set(ends):
-            wrong(f"{where}{name} needs {' and '.join(ends)} beside it")
-        low, high = ([0] + [number(where, items, end) for end in ends])[-2:]
-        value = math.floor((high - low) / value + 0.5)
+        low, high, azimuth = (number(where, {end: default} | items, end)
+                              for end, default in zip(("RangeMin", "RangeMax", "Azimuth"), defaults))
+        if low >= high:
+            wrong(f"{where}RangeMax must be above RangeMin")
+        value = math.floor((high - low if key == "range_bins" else azimuth) / value + 0.5)
         value = number(where, {f"bins by {name}": value}, f"bins by {name}", 1, 8192)
     return {"streaks": ("none", "add", "reduce")[int(value) % 3], "multipath": "cluster" if value else "none",
             "variance": math.sqrt(abs(value)), "whole": int(value)}.get(form, value)
@@ -89,7 +92,7 @@ def value_of(where, items, name):
 
 def sonar_of(where, sensor, kind, every):
     """The section of a sonar, its keys of the water, and remarks on what has no counterpart."""
-    own, lacks = SONARS[kind]
+    own, lacks, defaults = SONARS[kind]
     mount = {"translation_m": vector(where, sensor, "location"), "rpy_deg": vector(where, sensor, "rotation")}
     sonar = {"kind": own, "mount": mount, "every": every} | ({"azimuth_deg": 85} if kind == "GPUSidescanSonar" else {})
     remarks = [f"{kind}: {REMARKS[kind]}"] if kind in REMARKS else []
@@ -98,13 +101,13 @@ def sonar_of(where, sensor, kind, every):
         key = PARAMETERS.get(name, ("", ""))[1]
         if key and key not in lacks:
             section, _, inner = key.rpartition(".")
-            (sonar.setdefault(section, {}) if section else sonar)[inner] = value_of(inside, given, name)
+            (sonar.setdefault(section, {}) if section else sonar)[inner] = value_of(inside, given, name, defaults)
         else:
             why = f"a sonar of kind {own} has no {key}" if key else NO_COUNTERPART.get(name, "it is not known")
             remarks.append(f"'{' '.join(name.split())[:60]}' has no counterpart: {why}")
     if "add_sigma" in sonar.get("noise", {}):       # HoloOcean's noise grows with range only if ScaleNoise is set
         sonar["noise"].setdefault("scale_with_range", False)
-    if sonar.get("range_min_m", 0) >= sonar.get("range_max_m", math.inf):
+    if sonar.get("range_min_m", defaults[0]) >= sonar.get("range_max_m", defaults[1]):
         wrong(f"{inside}RangeMax must be above RangeMin")
     remarks += ["where its socket sits on the agent is not in the scenario: check mount"] * ("socket" in sensor)
     return sonar, sonar.pop("water", {}), remarks
@@ -112,7 +115,7 @@ def sonar_of(where, sensor, kind, every):
 
 def sensors_of(where, agent, ticks):
     """The sections of all sonars, their water and the rate of the fastest."""
-    sonars, sections, water = [], {}, {}
+    sonars, sections, waters = [], {}, []
     for k, sensor in enumerate(take(where, agent, "sensors", list, [])):
         here = f"{where}sensors[{k}]."
         kind = take(here, sensor, "sensor_type", str, "") if isinstance(sensor, dict) else ""
@@ -126,13 +129,16 @@ def sensors_of(where, agent, ticks):
         base = re.sub(NOT_IN_NAMES, "_", take(here, sensor, "sensor_name", str, kind))[:60] or "sonar"
         name = next(one for one in (base, *(f"{base}_{k}" for k in range(2, 10**4))) if one not in sections)
         every = math.floor(fastest / rate + 0.5)
-        sections[name], assumed, remarks = sonar_of(here, sensor, kind, every)
+        sections[name], own, remarks = sonar_of(here, sensor, kind, every)
+        waters.append((here, own, remarks))
         if abs(fastest / every - rate) > 0.01 * rate:
             remarks.append(f"{rate:.4g} Hz become {fastest / every:.4g} Hz: a sonar pings at every n-th pose, of which "
                            f"there are {fastest:.4g} in a second")
-        remarks += [f"another water than that of the sonars before; a mission has one: {key} stays {water[key]}"
-                    for key, value in assumed.items() if water.setdefault(key, value) != value]
         sections[name]["#"] = remarks
+    water = {key: value for _, own, _ in reversed(waters) for key, value in own.items()}
+    for here, own, remarks in waters:
+        remarks += [f"another water than the mission, which has one: {key} is {value}" for key, value in water.items()
+                    if own.get(key, WATER[key]) != value]
         for remark in remarks:
             say(f"{here[:-1]}: {remark}")
     return sections, water, fastest

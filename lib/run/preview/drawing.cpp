@@ -1,3 +1,5 @@
+#include <spdlog/fmt/fmt.h>
+
 #include <cctype>
 #include <cmath>
 #include <utility>
@@ -137,7 +139,7 @@ void draw_axes(Picture& tile, const PlaneFrame& frame) {
     for (const double x : axis_marks(frame.low.x(), high.x(), 6.0)) {
         const int at = static_cast<int>(frame.pixel({x, frame.low.y()}).x());
         fill(tile, at, bottom, 1, 4, ink);
-        const std::string number = number_text(x) + " m";
+        const std::string number = fmt::format("{:.12g} m", x);
         const int half = text_width(number) / 2;
         constexpr int blank_px = 6;
         if (at - half <= last || at + half >= tile.width) continue;
@@ -147,7 +149,7 @@ void draw_axes(Picture& tile, const PlaneFrame& frame) {
     for (const double y : axis_marks(frame.low.y(), high.y(), 5.0)) {
         const int at = static_cast<int>(frame.pixel({frame.low.x(), y}).y());
         fill(tile, frame.left - 5, at, 4, 1, ink);
-        label(tile, frame.left - 8, std::clamp(at, 6, tile.height - 6), number_text(y) + " m",
+        label(tile, frame.left - 8, std::clamp(at, 6, tile.height - 6), fmt::format("{:.12g} m", y),
               Align::right);
     }
 }
