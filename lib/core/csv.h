@@ -20,12 +20,11 @@ struct CsvTable {
     std::vector<CsvRow> rows;  ///< each with as many fields as the header
 };
 
-/// Reads comma-separated text and visits its rows one by one, the header first, since a whole table
-/// takes forty times the memory of its text. Lines that start with '#' and blank lines are skipped;
-/// a byte order mark and CRLF line ends are tolerated. A field may be quoted ("a, b"; "" is one
-/// quote), but may not span lines. InputError with file:line for a missing header, a row with
-/// another number of fields than the header, a misplaced quote, more than 1024 columns, or binary
-/// text.
+/// Reads comma-separated text, row by row, the header first, since a whole table takes forty times
+/// the memory of its text. Lines that start with '#' and blank lines are skipped; a byte order mark
+/// and CRLF line ends are tolerated. A field may be quoted ("a, b"; "" is one quote), but may not
+/// span lines. InputError with file:line for a missing header, a row with another number of fields
+/// than the header, a misplaced quote, more than 1024 columns, or binary text.
 void for_each_csv_row(std::string_view text, const std::string& file_name,
                       const std::function<void(CsvRow& row)>& visit);
 

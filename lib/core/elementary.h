@@ -172,8 +172,7 @@ inline SinCosFloat sincos_small(float x) {
     return {2.0F * s * c, 1.0F - 2.0F * s * s};
 }
 
-/// Sine and cosine of an angle in whole turns, of any size that a float holds with a fraction;
-/// absolute error below 1e-6.
+/// Sine and cosine of an angle in whole turns that a float holds with a fraction; to 1e-6.
 inline SinCosFloat sincos_turns(float turns) {
     return sincos_small(static_cast<float>(2.0 * pi) * (turns - std::floor(turns + 0.5F)));
 }

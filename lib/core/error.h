@@ -62,8 +62,7 @@ class ErrorList {
     std::size_t count_ = 0;
 };
 
-/// Runs `read`, which reads a file. Its error gets the place at which another file names this file,
-/// if that is known.
+/// Runs `read`, which reads a file. Its error gets the place at which another file names it.
 auto read_named_at(const Location& place, const auto& read) {
     try {
         return read();

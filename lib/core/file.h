@@ -112,8 +112,7 @@ class StreamedFile {
     std::string pending_;  ///< buffer, since lines are appended by the thousand
 };
 
-// The next three are for folders that anybody may have filled: what a link in them names may be
-// private, or not theirs.
+// The next three are for folders that anybody may have filled: what a link names may be private.
 
 /// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
 void require_no_link(const std::filesystem::path& path, const std::string& what);
@@ -127,8 +126,7 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t offset, st
 /// disk refuses.
 void copy_regular_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// An empty folder for temporary files, which goes with this object. std::system_error when the
-/// disk refuses.
+/// An empty folder for temporary files, which goes with this object. std::system_error by the disk.
 class ScratchFolder {
   public:
     ScratchFolder();

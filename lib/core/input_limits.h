@@ -1,7 +1,6 @@
 #pragma once
 
-// Limits on what the program accepts from files and missions. Beyond them numbers overflow or lose
-// the promised precision.
+// Limits on what files and missions may hold. Beyond them numbers overflow or lose digits.
 
 namespace sonarsim {
 

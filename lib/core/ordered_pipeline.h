@@ -28,11 +28,9 @@ extern "C" void __tsan_release(void* address);
 namespace sonarsim {
 
 // Debian's TBB is not built for the thread sanitizer, so the sanitizer does not see that TBB orders
-// the threads it hands work to. These functions announce that order; in other builds they do
-// nothing.
+// the threads it hands work to. These announce that order; in other builds they do nothing.
 
-/// Makes what this thread has written visible to threads that call tsan_acquire() with the same
-/// address.
+/// Makes what this thread has written visible to those that call tsan_acquire() with this address.
 inline void tsan_release([[maybe_unused]] const void* address) {
 #ifdef SONARSIM_THREAD_SANITIZER
     __tsan_release(const_cast<void*>(address));

@@ -23,8 +23,7 @@ struct PhiloxKey {
     std::uint32_t k0, k1;
 };
 
-/// Philox4x32-10 of Salmon et al., "Parallel random numbers: as easy as 1, 2, 3" (SC11). A test
-/// compares it with Random123.
+/// Philox4x32-10 of Salmon et al. (SC11, "Parallel random numbers"), tested with Random123.
 inline PhiloxBlock philox(PhiloxBlock c, PhiloxKey key) {
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t a = std::uint64_t{0xD2511F53U} * c.x0;

@@ -48,8 +48,7 @@ bool contains(const auto& all, const auto& wanted) {
     return std::ranges::find(all, wanted) != std::ranges::end(all);
 }
 
-/// " (did you mean 'x'?)" with the candidate nearest to `word` by edit distance, or "" when none
-/// is near.
+/// " (did you mean 'x'?)" with the candidate nearest to `word` by edit distance; "": none is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 /// A name without the number that Blender adds to the name of a copy, a point and three or more

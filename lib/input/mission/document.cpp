@@ -24,8 +24,7 @@ bool is_control(char byte) {
     return value < 0x20 || value == 0x7f;
 }
 
-/// yaml-cpp takes the byte 4 for the end of the file and guesses at other encodings, so neither
-/// may reach it.
+/// yaml-cpp takes the byte 4 for the end of a file and guesses at encodings: neither may reach it.
 void check_characters(std::string_view text, YamlPlace place, Lines lines) {
     std::size_t length = 0;
     for (std::size_t i = 0; i < text.size(); i += length) {

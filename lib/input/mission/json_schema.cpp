@@ -140,8 +140,7 @@ class SchemaMaker {
                 Json if_this{{"properties", {{"kind", {{"const", kind.name}}}}},
                              {"required", {"kind"}},
                              {"not", {{"required", {"preset"}}}}};
-                // The rule of the default model also holds for an unknown model, so that its name
-                // is checked.
+                // The default model's rule also holds for an unknown one: its name is checked.
                 if_this["properties"]["model"] =
                     is_default ? Json{{"not", {{"enum", others}}}} : Json{{"const", model}};
                 if (!is_default) if_this["required"].push_back("model");

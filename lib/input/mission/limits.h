@@ -16,8 +16,7 @@ struct Limits {
     bool low_allowed = true;
 };
 
-/// Larger than anything in the sea. Squares and products of such numbers are finite, and a count up
-/// to it fits an int.
+/// Larger than anything in the sea. Products of such numbers are finite, and counts fit an int.
 inline constexpr double largest_number = 1e9;
 
 constexpr Limits at_least(double low) {
@@ -35,8 +34,7 @@ inline constexpr Limits sound_speeds_m_s{1000.0, 2000.0};
 inline constexpr Limits any_angle_deg{-360.0, 360.0};
 inline constexpr Limits any_unsigned{0.0, 18446744073709551615.0};  // 64 bits
 
-/// An optional key may be left out; its default holds then. `automatic`: it also takes the word
-/// auto, which is kept as 0.
+/// An optional key has a default. `automatic`: it also takes the word auto, kept as 0.
 enum class Presence { optional, required, automatic };
 inline constexpr Presence required = Presence::required;
 inline constexpr Presence or_auto = Presence::automatic;

@@ -43,8 +43,7 @@ struct ClassConfig {
 /// The bins that the mask of an object has.
 enum class MaskKind { outline, echo };
 
-/// The classes that are background, which have neither contrast, shadow nor visible share, and the
-/// masks of the others.
+/// The classes without contrast, shadow and visible share, and the masks of the others.
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are not objects
     MaskKind mask = MaskKind::outline;            ///< the masks of `objects`

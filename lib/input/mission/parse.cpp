@@ -79,8 +79,7 @@ auto* item_of(auto& node, const std::string& key) {
     return index && *index < node.items.size() ? &node.items[*index] : nullptr;
 }
 
-/// The item of `node` that `key` names. A missing item of a map is created. `above` holds `node`,
-/// for messages.
+/// The item of `node` that `key` names; created if missing. `above` holds `node`, for messages.
 YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
                   const YamlPlace& place) {
     if (YamlNode* const found = item_of(node, key)) return *found;

@@ -33,8 +33,7 @@ VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose);
 DrawnValues drawn_for_ping(const Mission& mission, std::string_view sensor, std::uint32_t pose);
 
 /// Draws a value of a rule, or the factor of `scale`, and returns it as YAML text: for a variant,
-/// or with Stream::ping_variation for a ping. Throws InputError at the rule's place when `within`
-/// is too narrow.
+/// or with Stream::ping_variation for a ping. InputError at the rule if `within` is too narrow.
 std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t rule_index,
                        std::uint32_t number, Stream stream = Stream::variation);
 

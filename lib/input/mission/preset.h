@@ -16,12 +16,10 @@ inline constexpr const char* randomised_presets = "randomised";
 /// The presets in one of these folders, as "oculus_m750d_750khz", sorted.
 std::vector<std::string> shipped_presets(const std::string& kind = sensor_presets);
 
-/// The end of a message about an unknown preset: the nearest name, and all of them. `name` may be
-/// a path.
+/// The end of a message about an unknown preset: the nearest name, and all. `name`: or a path.
 std::string shipped_hint(std::string name, const std::string& kind = sensor_presets);
 
-/// The file of a path from configs/ that came with the program, such as "sensors/NAME.yaml". Empty
-/// if there is none.
+/// The file of a path from configs/ that came with the program; empty: none.
 std::filesystem::path shipped_file(const std::filesystem::path& name);
 
 /// The file that the path of a preset means: one below `base_folder`, else one that came with the

@@ -23,8 +23,7 @@ struct KeyReference {
     std::optional<Limits> limits;           ///< limits of a number, or of every number of a list
     std::vector<std::string> choices = {};  ///< allowed names; empty: anything
     std::string meaning;
-    /// The kinds and models of the sonars with this key, as "imaging, paper". For other sections
-    /// one empty text.
+    /// The kinds and models of the sonars with this key, as "imaging, paper". Else one empty text.
     std::vector<std::string> sonars = {};
 };
 
@@ -36,8 +35,7 @@ struct SectionReference {
     std::vector<std::string> checks;  ///< conditions on several keys
 };
 
-/// All keys of a mission, as input/mission/mission.h describes them. All trajectories have the keys
-/// of the vehicle's.
+/// All keys of a mission, by input/mission/mission.h. All trajectories have the vehicle's.
 std::vector<SectionReference> mission_reference(SonarKeyTable sonars);
 
 /// Makes a Markdown table per section: key, type and unit, default, range, meaning.
@@ -45,8 +43,7 @@ std::string reference_markdown(const std::vector<SectionReference>& sections);
 
 /// The JSON Schema (2020-12) of a mission, with which editors complete and check missions: type,
 /// limits, default, choices and meaning of each key, the required keys, and the keys of each kind
-/// of sonar. A schema cannot express checks across keys; they are in the `$comment` of their
-/// section.
+/// of sonar. A schema cannot express checks across keys; they are each section's `$comment`.
 nlohmann::ordered_json reference_schema(const std::vector<SectionReference>& sections,
                                         SonarKeyTable sonars);
 

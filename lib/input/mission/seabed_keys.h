@@ -14,8 +14,7 @@
 
 namespace sonarsim {
 
-// A sea bed that is generated from numbers and the mission's seed. Pairs are limits of random
-// draws.
+// A sea bed that is made by numbers and the mission's seed. Pairs are limits of draws.
 
 /// An isotropic power spectrum of heights, W(K) = strength / (K^2 + (2 pi / corner)^2)^(exponent/2)
 /// with K in rad/cm and W in cm^4, so that the integral of W over the plane is the variance.

@@ -10,8 +10,7 @@ namespace sonarsim {
 /// the parser's message `fault` if the cause is unknown.
 std::string cause_of(const std::string& fault, int line_number, std::string_view text);
 
-/// True if the quoted text that begins at `at` is closed. The parser takes the end of the file for
-/// a missing quote.
+/// True if the quoted text from `at` on is closed. The parser takes the file's end for a quote.
 bool is_closed(std::string_view text, std::size_t at);
 
 }  // namespace sonarsim

@@ -75,8 +75,7 @@ double number_within(const std::string& text, const char* quantity, double low, 
     return *value;
 }
 
-/// InputError if the columns of a sea bed have some numbers of the model and lack others, or a
-/// wall.
+/// InputError for a sea bed with some numbers of the model that lacks others, or has a wall.
 void check_sea_bed(const Material& material, const Location& where) {
     if (material.wall_mm && (material.grain_phi || material.loss_parameter))
         refuse(where, "a sea bed has no wall_mm; leave it or the sea bed's columns empty");

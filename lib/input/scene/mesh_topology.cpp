@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A hash of an edge: that of the opposite direction is its negative. Those of a closed part add up
-/// to 0.
+/// A hash of an edge: in the opposite direction its negative. Those of a closed part add to 0.
 std::uint64_t hash_of_edge(std::uint32_t from, std::uint32_t to) {
     if (from == to) return 0;
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U;

@@ -13,8 +13,7 @@ namespace sonarsim {
 /// The vertices of a triangle.
 using TriangleCorners = std::array<std::uint32_t, 3>;
 
-/// Twice the area of a triangle along its normal. In float, the product of a needle's sides is
-/// mostly cancellation.
+/// Twice the area of a triangle along its normal. In float a needle's would cancel.
 inline Eigen::Vector3d cross_of(std::span<const Eigen::Vector3f> vertices,
                                 const TriangleCorners& triangle) {
     const Eigen::Vector3d a = vertices[triangle[0]].cast<double>();

@@ -25,8 +25,7 @@ struct NumberedNames {
 
 using NamedInstances = std::vector<std::pair<std::string, std::string>>;
 
-/// The rule that applies to each instance; null if none does. InputError for a rule that applies to
-/// no instance.
+/// The rule that applies to each instance; null: none. InputError for a rule that applies to none.
 std::vector<const ClassConfig*> rule_of_instances(const NamedInstances& instances,
                                                   std::span<const ClassConfig> rules) {
     std::vector<const ClassConfig*> chosen(instances.size(), nullptr);

@@ -20,8 +20,7 @@ struct HeightmapRule {
     static constexpr double unlimited = std::numeric_limits<double>::infinity();
     /// The size of a pixel; the south-west corner lies at (0, 0). 0: the file places its pixels.
     double pixel_m = 0.0;
-    /// The longest side of the surface's cells, between whose pixels it is cubic. 0: those of the
-    /// pixels.
+    /// The longest side of the surface's cells, cubic between pixels. 0: those of the pixels.
     double cell_m = 0.0;
     /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
     /// If it lies outside the map, all is read.
@@ -44,8 +43,7 @@ struct PlacedFile {
 
     std::string name = {};        ///< joins all nodes into one instance; "": one instance each
     std::string class_name = {};  ///< class of its instances; "": the file's own
-    /// Transform from the file's own frame, which is in metres with z up, to the world, or to the
-    /// frame of a body that moves.
+    /// Transform from the file's frame, metres with z up, to the world or to its body's frame.
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     bool moves = false;
     /// Patterns of the nodes that are the bottom, empty for all; none: no node is.

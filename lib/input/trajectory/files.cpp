@@ -24,8 +24,7 @@ struct Column {
     double limit;
 };
 
-/// All columns: those of every file, then those of the two attitude formats. TUM files have the
-/// first eight.
+/// All columns: of every file, then of the two attitude formats. TUM files have the first eight.
 constexpr Column all_columns[] = {{"t_s", furthest_s}, {"x_m", furthest_m}, {"y_m", furthest_m},
                                   {"z_m", furthest_m}, {"qx", 1e9},         {"qy", 1e9},
                                   {"qz", 1e9},         {"qw", 1e9},         {"roll_deg", 1e6},

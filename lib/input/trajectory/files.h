@@ -23,8 +23,7 @@ Trajectory parse_csv_trajectory(std::string_view text, const std::string& file);
 /// blanks; '#' starts a comment. InputError with file:line:column as for CSV.
 Trajectory parse_tum(std::string_view text, const std::string& file);
 
-/// Writes poses as TUM text after a comment with the names of the columns. parse_tum reads back the
-/// same numbers, bit for bit.
+/// Writes poses as TUM text below the names of the columns; parse_tum reads the same numbers.
 std::string write_tum(const Trajectory& trajectory);
 
 }  // namespace sonarsim

@@ -129,8 +129,7 @@ Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
 
     const double width = across.hi - across.lo;
     const double spacing = survey.line_spacing_m;
-    // The subtracted 1e-9 keeps an exact multiple of the spacing from rounding up to one strip
-    // more.
+    // 1e-9 keeps an exact multiple of the spacing from rounding up to one strip more.
     const double lines = std::max(1.0, std::ceil(width / spacing - 1e-9));
     if (lines > max_lines) {
         throw InputError(fmt::format("line_spacing_m of {} gives {} lines; at most {} are allowed",
@@ -139,8 +138,7 @@ Trajectory lawnmower(const LawnmowerTrajectoryConfig& survey) {
     const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);
 
     const auto in_world = [&](double along, double to_port) {
-        // Explicit fma(): GCC contracts such a pair of products even where contraction is switched
-        // off.
+        // GCC contracts such a pair of products even where contraction is off.
         return Eigen::Vector3d(std::fma(heading.cos, along, -(heading.sin * to_port)),
                                std::fma(heading.sin, along, heading.cos * to_port), survey.z_m);
     };

@@ -19,8 +19,7 @@ Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaternion
     const Eigen::Vector4d& a = from.coeffs();
     const Eigen::Vector4d b = a.dot(to.coeffs()) < 0.0 ? -to.coeffs() : to.coeffs();
     const double angle = 2.0 * arctan2((b - a).norm(), (b + a).norm());
-    // At smaller angles the quotient of sines nears 0 / 0, and a straight line equals the arc to
-    // within angle^3.
+    // At smaller angles the quotient of sines nears 0 / 0, and a straight line equals the arc.
     if (angle < 1e-6) return Eigen::Quaterniond(a + fraction * (b - a)).normalized();
     const double whole = sincos(angle).sin;
     const double share_a = sincos((1.0 - fraction) * angle).sin / whole;

@@ -62,8 +62,7 @@ class PngEncoder {
     ZlibPacker packer_;
 };
 
-/// Writes a PNG file row by row, so that it may be longer than memory. std::system_error by the
-/// disk.
+/// Writes a PNG file row by row: it may be longer than memory. std::system_error by the disk.
 class ImageFile {
   public:
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)

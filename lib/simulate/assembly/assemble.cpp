@@ -149,8 +149,7 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
     errors.raise();
 }
 
-/// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
-/// MB.
+/// The triangles beyond which load_scene() shares meshes. A million triangles take 170 MB.
 std::size_t sharing_threshold(EngineKind engine) {
     constexpr std::size_t many_triangles = 4'000'000;
     const bool may_be_rays = engine == EngineKind::automatic || engine == EngineKind::rays;
@@ -244,8 +243,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
-    // 5. The water: what swims in it, its surface, whose warning needs both and all poses, its
-    // layers.
+    // 5. The water: what swims in it, its surface (whose warning needs all poses), its layers.
     add_particles(mission, assembly.trajectory, scene, assembly.sonars);
     add_water_surface(mission, assembly);
     add_sound_profiles(mission, scene, assembly.sonars);

@@ -53,15 +53,13 @@ Assembly assemble(const Mission& mission);
 /// The same; `models` may hold files that were read for another mission.
 Assembly assemble(const Mission& mission, SceneStore& models);
 
-/// Finds the place of every object, as assemble() does first. InputError where that fails, as for
-/// objects that find no room.
+/// Finds the place of every object, as assemble() does first. InputError as there.
 void check_places(const Mission& mission, SceneStore& models);
 
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 
-/// The engine of a mission, over the trees that its assembly has made. The assembly must outlive
-/// it.
+/// The engine of a mission, over the trees that its assembly has made. The latter outlives it.
 std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly);
 
 /// A ping of a dataset: sensor by its index in Mission::sensors, pose by its index on the

@@ -24,8 +24,7 @@ constexpr double share_usual = 0.9;
 constexpr double max_above_usual = 10.0;
 constexpr double full_scale_without_echo = 1.0;  // any value works
 
-/// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
-/// depends on the library.
+/// Rounds up to two digits by products: the last bit of powers depends on the library.
 double two_digits_up(double value) {
     if (value == 0.0) return 0.0;
     double scale = 1.0;

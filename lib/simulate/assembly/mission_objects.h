@@ -14,10 +14,9 @@
 namespace sonarsim {
 
 /// The classes that are never annotated, as SceneObjects::background: those that
-/// `labels.background` names. `auto` is the classes of the bottom (bottom_patterns()) and,
-/// if there are two classes or more, of the object with the largest surface at rest. The class
-/// `clutter` of `scatter` is background, too. InputError for a name that no class has and no
-/// scattered object may have.
+/// `labels.background` names. `auto` is the classes of the bottom (bottom_patterns()) and, if there
+/// are two classes or more, of the object with the largest surface at rest. The class `clutter` of
+/// `scatter` is background, too. InputError for a name that no class and no scattered object has.
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
                                              const SceneObjects& objects);
 
@@ -30,8 +29,7 @@ std::optional<std::string> background_by_size(const Mission& mission, const Scen
                                               const SceneObjects& objects);
 
 /// The objects and classes that any variant of a mission can have, in the order of the mission.
-/// Objects of files are taken from `scene`; objects whose number is drawn are named even if the
-/// scene has none.
+/// Objects of files are taken from `scene`; objects with a drawn number are named without any.
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene);
 
 /// The variants of a mission, each with the classes of all choices. Reads the files of the scene if

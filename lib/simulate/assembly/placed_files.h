@@ -18,8 +18,7 @@ Eigen::Affine3d transform_of(const ObjectConfig& object);
 /// A heightmap, placed.
 PlacedFile file_of(const HeightmapConfig& map);
 
-/// The materials whose parts of the file's nodes are instances of their own, by the mission's rules
-/// for classes.
+/// The materials whose parts of the nodes are instances of their own, by the rules for classes.
 std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file);
 
 /// The unit and axis of the .obj, .stl and .ply files of a scene, which do not say them: "tyre.stl:

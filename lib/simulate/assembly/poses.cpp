@@ -72,8 +72,7 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
     return 2.0 * arctan2(sine, q.w()) / sine * q.vec();
 }
 
-/// The motion of a sonar at a pose: the difference of the neighbouring poses over their time
-/// difference.
+/// The motion of a sonar at a pose: the difference of the neighbouring poses over that in time.
 PingMotion motion_at(const Trajectory& trajectory, std::uint32_t pose, const Sonar& sonar,
                      double sound_speed_m_s) {
     const TimedPose& before = trajectory[pose > 0 ? pose - 1 : 0];

@@ -46,8 +46,7 @@ Trajectory moved_vehicle(const Mission& mission, Trajectory poses);
 Trajectory look_at_poses(const LookAtTrajectoryConfig& config, const Scene& scene,
                          const SceneObjects& objects, const Pose* mount, std::uint64_t seed);
 
-/// Adds the height of the bottom and `altitude_m` of a lawnmower to poses. InputError where there
-/// is no bottom.
+/// Adds the height of the bottom and `altitude_m` of a lawnmower to poses. InputError without one.
 void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& poses);
 
 /// The poses that the vehicle's navigation reports; empty if it reports the true ones.

@@ -162,8 +162,7 @@ void add_orientation_warning(const std::string& question, SceneParts& parts) {
         parts.orientation_warnings.push_back(question);
 }
 
-/// Scatters objects. The error of objects without room says where the bottom lies, and asks for
-/// the units.
+/// Scatters objects. Without room the error says where the bottom lies, and asks for the units.
 std::vector<ScatteredObject> scattered(const ScatterConfig& config,
                                        std::span<const Surface* const> shapes, std::uint32_t index,
                                        std::uint64_t seed, const LazyBottom& bottom, double range_m,

@@ -32,8 +32,7 @@ class SceneStore : public SceneFiles {
     /// The surface of a file; files read with the same options share one.
     const Surface& shape(const PlacedFile& file, const MeshConfig& mesh);
 
-    /// The bottom that the nodes of a placed file form; no patterns: all nodes. InputError as
-    /// surface_of().
+    /// The bottom that nodes of a placed file form; no patterns: all. InputError as surface_of().
     std::shared_ptr<const Bottom> bottom(const PlacedFile& placed,
                                          const std::vector<std::string>& nodes);
 

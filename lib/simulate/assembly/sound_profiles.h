@@ -8,8 +8,7 @@
 
 namespace sonarsim {
 
-/// The profile of sound speed of a mission's water, which has one, in the world. InputError for a
-/// file that cannot be read.
+/// The profile of sound speed of a mission that has one, in the world. InputError by the file.
 SoundProfile sound_profile(const Mission& mission);
 
 /// Sets the profile of sound speed of the scene and of the sonars, for soundings.

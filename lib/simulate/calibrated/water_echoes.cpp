@@ -15,8 +15,7 @@ constexpr float deep_m = 1e9F;
 // The range at which a transducer is in its far field, m.
 constexpr float far_m = 1e6F;
 
-/// The stretch of a ray, [from, to], on which its depth lies between two depths. `per_depth`: its
-/// length per metre of depth.
+/// The stretch [from, to] of a ray between two depths. `per_depth`: length per metre of depth.
 std::array<float, 2> stretch_between(float depth_m, float per_depth, float top_m, float bottom_m) {
     const float a = (top_m - depth_m) * per_depth;
     const float b = (bottom_m - depth_m) * per_depth;

@@ -36,8 +36,7 @@ struct HiddenSurface {
 
 /// Traces the hidden surface, but not in directions without any by `directions`. By::objects keeps
 /// only surface that objects hide, as far as the first background behind them, and hidden surface
-/// of these objects, which lie in `directions`; small objects cost little. `echoes` are those of
-/// the trace.
+/// of these objects, which lie in `directions`; small objects cost little. `echoes`: of the trace.
 HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,

@@ -19,8 +19,7 @@ MaskFrame frame_of(const View& view, const ResolutionCell& cell) {
 
 namespace {
 
-/// Counts the lines of an object on both sides of a full turn's seam on over it: they begin behind
-/// the largest gap.
+/// Counts an object's lines beyond the seam of a full turn on over it, from the largest gap.
 void unwrap(const MaskFrame& frame, std::span<const std::uint16_t> ids, MaskWindow& box) {
     if (!frame.full_turn || box.line > 0 || box.lines < frame.lines) return;
     int gap = 0;

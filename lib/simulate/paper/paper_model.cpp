@@ -15,8 +15,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The area-weighted mean of each bin, Eq. 9; 0 in bins without surface. Returns the number of bins
-/// with surface.
+/// The area-weighted mean of each bin, Eq. 9; 0 in bins without surface. Returns how many have it.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity) {
     int occupied = 0;
     const auto first = static_cast<std::size_t>(sums.first);

@@ -47,8 +47,7 @@ struct Swath {
     double reach_m = 0.0;                               ///< ground range at range_max
 };
 
-/// The swath of a ping at an altitude; nothing without a bottom in range, or if the bow points
-/// straight up or down.
+/// The swath of a ping at an altitude; nothing without a bottom, or with the bow up or down.
 std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
                               std::optional<double> altitude_m);
 

@@ -67,8 +67,7 @@ double unexplained_share(const Sonar& sonar, const Ping& ping, int beam, const D
     return share * std::max(0.0, 1.0 - background * (run.end - run.begin) / above);
 }
 
-/// Range and quality of one beam. `values` are those of the beam, divided by its background;
-/// `strongest` as above.
+/// Range and quality of a beam. `values`: divided by its background; `strongest` as above.
 Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
                           std::span<const double> values, std::span<const float> strongest) {
     if (std::ranges::none_of(values, [](double value) { return value > 0.0; })) return {};
@@ -92,8 +91,7 @@ Sounding sounding_of_beam(const Sonar& sonar, const Ping& ping, int beam,
 
 /// Divides a beam by its background. This is the mean noise of the receiver, which the TVG raises
 /// with range, plus what the median bin has above it, such as water or side lobes. Undivided, noise
-/// at long range may be stronger than the bottom. Divided by the noise
-/// alone, water near the sonar may be.
+/// at long range may be stronger than the bottom. Divided by the noise alone, near water may be.
 void divide_by_background(std::span<double> beam, std::span<const float> noise) {
     constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
     constexpr double min_power = 1e-30;

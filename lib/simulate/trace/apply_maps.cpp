@@ -110,8 +110,7 @@ class GroundMapApplier {
         const float size_u = size_of(piece.u, at);
         const float size_v = size_of(piece.v, at);
         if (size_v > size_u) piece.swap_edges();
-        // The sizes of a piece at the sonar are NaN; with this order of arguments the piece is not
-        // cut.
+        // The sizes of a piece at the sonar are NaN; in this order of arguments it is not cut.
         if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
             for (const double low : {-1.0, 0.0})
                 cut(piece.between(low, low + 1.0), halvings - 1, out);

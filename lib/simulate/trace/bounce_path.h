@@ -19,9 +19,8 @@ struct SecondPoint {
 };
 
 /// A multipath path: from the sonar to a sample, which reflects the sound to a second surface, and
-/// from there back to the sonar. If the water's surface reflects the sound on its way
-/// (`by_water_surface`), `point` and `normal` are those of the second surface's image in the
-/// water's surface.
+/// back from there. If the water's surface reflects the sound on its way (`by_water_surface`),
+/// `point` and `normal` are those of the second surface's image in the water's surface.
 struct BouncePath : SecondPoint {
     std::uint32_t sample = 0;  ///< index into Samples::items
     std::uint32_t ray = 0;     ///< the traced ray that found the second surface

@@ -21,14 +21,12 @@ Ray specular_ray(const Sample& sample, float bin_m) {
             specular_direction(arrival.direction, sample.normal)};
 }
 
-/// True if a ray may have hit the surface that it started from: its start lies in the plane that it
-/// hit, to within rounding.
+/// True if a ray may have hit the surface that it started from: its start lies in that plane.
 bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }
 
-/// Sets the material, the strength and the reflection at a hit. `point` is its true place, not its
-/// image.
+/// Sets material, strength and reflection at a hit. `point` is its true place, not its image.
 void set_surface(const BounceTracer& context, const Intersection& hit, const Eigen::Vector3f& point,
                  BounceHit& out) {
     MappedPoint surface{hit.material, 1.0F};

@@ -40,20 +40,17 @@ struct EchoModelInfo {
     MapStrengths map_strengths = MapStrengths::in_samples;
     /// True if an image takes so long that previews and checks of a mission form fewer of them.
     bool is_slow = false;
-    /// The memory that the model needs to form an image, without the image itself, and that which
-    /// multipath adds.
+    /// The memory to form an image, without the image itself, and that which multipath adds.
     double working_bytes = 0.0, multipath_bytes = 0.0;
     /// The factor by which the noise grows with range, by range bin; empty: it does not grow.
     std::vector<float> noise_growth = {};
-    /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth
-    /// tells how it grows.
+    /// The mean of the receiver's noise, by range bin; empty: none, or noise_growth tells it.
     std::vector<float> mean_noise = {};
     ResolutionCell cell = {};
     /// The factor from the direct echoes of surface_echoes() within a cell to their value in the
     /// image, by range bin; empty: the image has no such unit.
     std::vector<float> echo_gain = {};
-    /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from
-    /// pings.
+    /// What is white in pictures if `output.full_scale` is auto; 0: it follows from pings.
     double white = 0.0;
     /// The transmissions of add_behind_walls(), if the model is prepared for a scene.
     std::vector<float> wall_transmissions = {};

@@ -94,8 +94,7 @@ struct Followed {
     std::vector<BouncePath> bounces, turned_away;
 };
 
-/// Reflects one sample off the plane, and keeps the path if it returns. Returns whether the sample
-/// has to be traced by itself.
+/// Reflects one sample off the plane, keeps a path that returns. True: trace it by itself.
 bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray,
             const Plane& plane, Followed& followed, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
@@ -165,8 +164,7 @@ std::vector<BouncePath> follow_all(const BounceTracer& context, const Clusters& 
     Followed followed;
     follow_traced(context, sources, second_hits, followed, counts);
 
-    // If both hit one plane, the members between them are reflected off it; otherwise all are
-    // traced.
+    // If both hit one plane, those between are reflected off it; otherwise all are traced.
     sources.clear();
     std::uint32_t end = 0;
     for (std::size_t c = 0; c < clusters.size(); ++c) {

@@ -13,8 +13,7 @@ namespace sonarsim {
 struct Particle {
     Eigen::Vector3d start_m;  ///< place at time 0, world
     Eigen::Vector3d velocity_m_s;
-    /// Its height wraps between these, if the second is greater: a bubble at the top starts again
-    /// at the bottom.
+    /// Its height wraps between these, if the second is greater: bubbles start again below.
     double bottom_m = 0.0, top_m = 0.0;
     float section_m2 = 0.0F;     ///< backscattering cross-section: 10 log of it is the strength
     std::uint32_t material = 0;  ///< index into Scene::materials
@@ -36,8 +35,7 @@ class Particles final : public SampleSource {
     void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,
              Samples& samples) const override;
 
-    /// Adds `particles`: by object the number that is received, their mean place and total
-    /// strength.
+    /// Adds `particles`: by object the number received, mean place and total strength.
     void describe(const Samples& samples, const Scene& scene, std::uint32_t pose,
                   nlohmann::ordered_json& ping) const override;
 

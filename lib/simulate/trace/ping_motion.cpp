@@ -62,8 +62,7 @@ MovedPlace moved_place(const PingMotion& motion, ViewShape shape, const Eigen::V
 }
 
 /// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
-/// time by 2 / c for each metre; in this time a sonar moves by thousandths of a metre and turns by
-/// less than 1e-3.
+/// time by 2 / c for each metre; in this time a sonar moves by millimetres and turns by below 1e-3.
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
     const MovedPlace there = moved_place(motion, shape, place);

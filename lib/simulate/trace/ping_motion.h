@@ -9,8 +9,7 @@
 
 namespace sonarsim {
 
-/// The motion of a sonar while the sound of a ping is under way, at constant rates in its own frame
-/// at transmission.
+/// The motion of a sonar during a ping, at constant rates in its frame at transmission.
 struct PingMotion {
     Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d turn_rad_s = Eigen::Vector3d::Zero();

@@ -184,8 +184,7 @@ void EchoSums::add(const EchoBlock& echoes, std::span<const std::uint32_t> sourc
             std::uint8_t* const occupied =
                 echoes.behind_walls ? &unused_[first] : &occupied_[beam * stride_ + first];
             occupied[0] = 1;
-            // This is the first bin again if the box ends in it: a branch would often be
-            // mispredicted.
+            // The first bin again if the box ends in it: a branch would be mispredicted.
             occupied[boxes.share[k].second > 0.0F ? 1 : 0] = 1;
             if (rest < 2) continue;
             for (int i = 2; i < rest; ++i) {

@@ -27,8 +27,7 @@ inline RangeBins range_bins(const View& view) {
             .count = view.range_bins};
 }
 
-/// Echoes of pieces of surface, each spread evenly over [range - half, range + half]. Arrays, so
-/// that loops vectorise.
+/// Echoes of surface, each spread evenly over [range - half, range + half]. Loops vectorise.
 struct RangeBoxes {
     std::vector<float> range_m;    ///< slant range of the middle of the extent
     std::vector<float> half_m;     ///< half its extent in range
@@ -40,8 +39,7 @@ struct RangeBoxes {
 };
 
 /// The sums that the boxes beginning in bin i add to it and to bin i + 1. They lie together, so
-/// that a box costs one addition of four floats; additions to overlapping memory would wait for
-/// each other.
+/// that a box costs one addition of four floats; overlapping additions would wait for each other.
 struct alignas(16) BinSum {
     float weight;
     float echo;  ///< weight times intensity

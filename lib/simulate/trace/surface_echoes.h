@@ -61,8 +61,7 @@ struct PatchEcho {
     double echo;
 };
 
-/// A piece of visible surface, or of surface behind thin walls. A line array may receive it in
-/// several beams.
+/// A piece of visible surface, or of surface behind thin walls. Several beams may receive it.
 struct EchoPatch {
     Eigen::Vector3f position, edge_u, edge_v;    ///< as in Sample
     std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
@@ -78,8 +77,7 @@ struct EchoRequest {
     const SceneObjects* objects = nullptr;
 };
 
-/// The surface that labels need besides the echoes. Samples are those of the traced ping, which
-/// must outlive this.
+/// The surface that labels need besides the echoes. The traced ping must outlive it.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
     SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
@@ -87,13 +85,11 @@ struct SurfaceEchoes {
     /// The visible surface; empty unless it was requested.
     std::vector<EchoPatch> patches;
     std::vector<PatchEcho> patch_echoes;
-    /// beams + 1 offsets into `patches`, if these are sorted by beam and have one echo each; else
-    /// empty.
+    /// beams + 1 offsets into `patches` if sorted by beam with one echo each; else empty.
     std::vector<std::uint32_t> patch_begin;
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
-    /// 1 for the samples of the traced ping with a direct echo, 0 for those in side lobes; empty:
-    /// all have one.
+    /// 1 for the samples with a direct echo, 0 for those in side lobes; empty: all have one.
     std::vector<std::uint8_t> received;
 };
 

@@ -39,8 +39,7 @@ inline Taper trapezoid_of(const Sample& sample, std::optional<ViewShape> shape) 
     return out;
 }
 
-/// The middle about which a footprint is cut into `parts` along `edge_u`: the wedge's pieces have
-/// its centroid.
+/// The middle about which a footprint is cut along `edge_u`: the wedge's pieces have its centroid.
 inline Eigen::Vector3f middle_of(const Sample& sample, int parts) {
     const float thinner = 1.0F / static_cast<float>(parts);
     return sample.position - sample.wedge / 3.0F * (1.0F - thinner * thinner) * sample.edge_u;

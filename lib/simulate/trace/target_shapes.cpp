@@ -131,8 +131,7 @@ Eigen::Vector3f weighted_normal(const TargetShape& shape, const TargetTriangle& 
     return a.cross(b).norm() / edges2 * triangle.normal;
 }
 
-/// The radius R of the sphere or cylinder that fits best: along an edge the normal turns by the
-/// edge over R.
+/// The radius R of the best sphere or cylinder: along an edge the normal turns by the edge over R.
 float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
     float along = 0.0F;
     float turned2 = 0.0F;

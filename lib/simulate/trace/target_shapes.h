@@ -64,8 +64,7 @@ struct TargetShapes {
     std::vector<PlacedTarget> placed;
 };
 
-/// Finds the instances of at most 20,000 triangles within a ball of at most 5 m radius. Null if
-/// there are none.
+/// Finds the instances of at most 20,000 triangles within a ball of at most 5 m radius. Null: none.
 std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene);
 
 }  // namespace sonarsim

@@ -45,8 +45,7 @@ struct Corner {
 };
 using Corners = std::array<Corner, 3>;
 
-/// A lower bound of the length of `off` on a triangle. A highlight lies where it is shorter than a
-/// few slopes of the material.
+/// A lower bound of the length of `off` on a triangle. Highlights lie below a few slopes.
 float min_off(const Corners& corners) {
     const Eigen::Vector3f middle = (corners[0].off + corners[1].off + corners[2].off) / 3.0F;
     float spread2 = 0.0F;
@@ -162,8 +161,7 @@ class TargetSampler {
     }
 
     void add_piece(const Corners& corners, bool glints) {
-        // From b to c is the shortest side, so that the edges of the footprint are far from
-        // parallel.
+        // From b to c is the shortest side: the edges of the footprint are far from parallel.
         const auto length2 = [&](int k) {
             return (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
         };

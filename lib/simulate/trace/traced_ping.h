@@ -31,8 +31,7 @@ struct TraceSettings {
     std::vector<float> wall_transmissions;  ///< see add_behind_walls(); empty: none
 };
 
-/// The samples that a sonar insonified. It holds no noise: any number of images may be formed from
-/// it.
+/// The samples that a sonar insonified. It holds no noise: it may become any number of images.
 struct TracedPing {
     Pose T_world_sensor;  ///< at transmission
     PingMotion motion;

@@ -18,8 +18,7 @@ class GuardedField {
     /// `view` must outlive it.
     explicit GuardedField(const View& view) : view_(view), field_(widened_view(view)) {}
 
-    /// True if it contains a point of the sensor frame; in guard beams, if the cones of a fan's
-    /// beams reach it.
+    /// True if it has a point of the sensor frame; in guard beams, if a fan's cones reach it.
     bool contains(const Eigen::Vector3f& point) const;
 
   private:

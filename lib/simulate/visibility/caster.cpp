@@ -43,8 +43,7 @@ bool has_parts(const Scene& scene) {
 
 }  // namespace
 
-/// The constant parts: a tree of the scene's own triangles, and one of each body and of each shared
-/// mesh in its own frame.
+/// The constant parts: trees of the scene's own triangles and of each body and shared mesh.
 struct Caster::Trees {
     /// A placed copy of a shared mesh, scene-local.
     struct PlacedCopy {
@@ -60,8 +59,7 @@ struct Caster::Trees {
     std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
     std::size_t bodies = 0;
     std::vector<PlacedCopy> copies;
-    /// The first facets of the two parts of the scene's own tree: of its first file and of the
-    /// others. No others: 0.
+    /// The first facets of the two parts of the scene's own tree; 0: there is no second.
     std::array<std::uint32_t, 2> first_of_part{};
 
     ~Trees() {
@@ -129,8 +127,7 @@ struct Caster::PlacedTree {
     std::vector<TracedMesh> meshes;
     std::size_t first_copy = 0;  ///< index of the first copy
 
-    /// Places the scene's own triangles, bodies and copies, as far as they are wanted, from facet
-    /// `first` on.
+    /// Places the scene's own triangles, bodies and copies, as far as wanted, from `first` on.
     PlacedTree(const Trees& trees, std::uint32_t first, bool own,
                std::span<const Pose> T_world_body, bool copies)
         : tree(trees.device), begin(first), end(first) {

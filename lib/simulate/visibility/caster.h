@@ -21,9 +21,8 @@ class Caster {
   public:
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
-    /// Builds the tree over `scene`, joined of one of its first file and one of the others, and one
-    /// over each of its bodies and shared meshes. Rays meet bodies only after moved() has placed
-    /// them.
+    /// Builds the tree over `scene`, joined of that of its first file and that of the others, and
+    /// one over each body and shared mesh. Rays meet bodies only after moved() has placed them.
     explicit Caster(const Scene& scene);
     ~Caster();
     Caster(Caster&&) noexcept;
@@ -57,8 +56,7 @@ class Caster {
                                        std::span<const Eigen::Vector3f> directions,
                                        std::span<const float> reach_m) const;
 
-    /// The facet at its present pose, scene-local. Copies of a mesh have facet numbers of their
-    /// own.
+    /// The facet at its present pose, scene-local. Copies have facet numbers of their own.
     Facet facet(std::uint32_t index) const {
         return index < still_ ? facets_[index] : placed_facet(index);
     }

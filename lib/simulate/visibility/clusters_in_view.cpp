@@ -31,8 +31,7 @@ Eigen::Vector3f centre_of(const MeshView& mesh, const TriangleCorners& triangle)
            3.0F;
 }
 
-/// Indices of the triangles along the Morton curve; triangles with equal codes keep the mesh's
-/// order.
+/// Indices of the triangles along the Morton curve; equal codes keep the mesh's order.
 std::vector<std::uint32_t> along_morton_curve(const MeshView& mesh) {
     Eigen::AlignedBox3f box;
     for (const auto& triangle : mesh.triangles)
@@ -98,8 +97,7 @@ ClusterMesh make_clusters(const MeshView& from) {
     return mesh;
 }
 
-/// Appends ClustersInView::own_outward of a mesh. A sensor nearer to a box than the margin counts
-/// as inside.
+/// Appends ClustersInView::own_outward of a mesh. Within the margin of a box counts as inside.
 void add_outward(const ClusterMesh& mesh, const Eigen::Vector3f& sensor, float margin_m,
                  std::vector<float>& out) {
     for (const Solid& solid : mesh.solids)

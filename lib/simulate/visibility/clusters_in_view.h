@@ -57,8 +57,7 @@ struct ClustersInView {
                                          : placed.facets[index - own.facets.size()];
     }
 
-    /// 1 or -1: only if the facet's normal, or its opposite, faces the sensor it may be visible;
-    /// 0: from either side.
+    /// 1 or -1: visible only if the facet's normal, or its opposite, faces the sensor; 0: always.
     float outward(std::uint32_t index) const {
         return index < own.facets.size() ? own_outward[own.facets[index].solid]
                                          : placed_outward[facet(index).solid];
@@ -85,8 +84,7 @@ struct ClustersInView {
     }
 };
 
-/// The triangles of a scene in clusters: its own, scene-local, and those of its bodies and shared
-/// meshes in their own frames.
+/// The triangles of a scene in clusters: its own, and those of bodies and shared meshes.
 class SceneClusters {
   public:
     /// `scene` must outlive it.

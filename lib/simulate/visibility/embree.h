@@ -1,7 +1,6 @@
 #pragma once
 
-// One interface to Embree 3 (Debian 12) and Embree 4 (Debian 13). The build defines the version it
-// found.
+// One interface to Embree 3 (Debian 12) and Embree 4 (Debian 13). The build defines which it found.
 #if SONARSIM_EMBREE == 3
 #include <embree3/rtcore.h>
 #else
@@ -41,8 +40,7 @@ inline float flush_to_zero(float component) {
     return std::fabs(component) < rest ? 0.0F : component;
 }
 
-/// rtcIntersect8 or, if `any_hit`, rtcOccluded8, through the tree with the whole packet. Filters of
-/// the meshes get `context`.
+/// rtcIntersect8 or, if `any_hit`, rtcOccluded8 of a whole packet. Filters get `context`.
 #if SONARSIM_EMBREE == 3
 using QueryContext = RTCIntersectContext;
 

@@ -12,8 +12,7 @@
 
 namespace sonarsim {
 
-/// Throws std::bad_alloc, or std::runtime_error with the text `doing`, if Embree has failed since
-/// the last call.
+/// Throws std::bad_alloc, or std::runtime_error with the text `doing`, if Embree has failed since.
 void check_embree(RTCDevice device, const char* doing);
 
 /// The tree of a mesh, for trace_packets().
@@ -25,8 +24,7 @@ void put_mesh(RTCDevice device, const EmbreeTree& into, unsigned int index,
               std::span<const Eigen::Vector3f> vertices,
               std::span<const std::array<std::uint32_t, 3>> triangles);
 
-/// True if the first mesh of the tree, which has as many triangles, has these. All vertices belong
-/// to triangles.
+/// True if the first mesh of the tree, with as many triangles, has these. All vertices are used.
 bool has_first_mesh(const EmbreeTree& tree, std::span<const Eigen::Vector3f> vertices,
                     std::span<const std::array<std::uint32_t, 3>> triangles);
 

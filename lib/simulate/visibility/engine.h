@@ -39,9 +39,8 @@ struct Sample {
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
-    /// The footprint of a slanted piece is a trapezoid about its centroid, `position`: the
-    /// difference of the lengths of `edge_v` at the end and at the start of `edge_u`, over their
-    /// sum.
+    /// The footprint of a slanted piece is a trapezoid about its centroid, `position`: the lengths
+    /// of `edge_v` at the end and start of `edge_u`, their difference over their sum.
     float wedge = 0.0F;
     /// Factor on the power that the material sends back, from a map of the scene
     /// (simulate/trace/apply_maps.h) and from bent sound that converges or spreads.
@@ -56,8 +55,7 @@ struct Sample {
     Eigen::Vector3f middle() const { return position - wedge / 3.0F * edge_u; }
 };
 
-/// The samples that a sonar insonifies. A footprint extends into a neighbouring beam by at most a
-/// tenth of a beam.
+/// The samples that a sonar insonifies. A footprint extends into the next beam by a tenth at most.
 struct Samples {
     /// The visible surface, sorted by beam, then what lies in no beam: visible surface in the guard
     /// beams, and the other kinds of samples, one after the other.
@@ -120,8 +118,7 @@ class VisibilityEngine {
     virtual ~VisibilityEngine() = default;
 
     /// The surface in `view` that is visible from `T_world_sensor` within the greatest range.
-    /// Surface nearer than the least range hides the surface behind it; it may be among the
-    /// samples.
+    /// Surface before the least range hides what is behind; it may be among the samples.
     virtual Samples visible_surface(const View& view, const Pose& T_world_sensor) const = 0;
 
     /// The first surface that each ray meets. `intersections` has as many elements as `rays`.

@@ -109,8 +109,7 @@ class ViewVolume {
         return contains_in_sensor_frame(R_sensor_local_ * centre, radius);
     }
 
-    /// The same for a cube, by the ball around it: slightly more than half its diagonal, for
-    /// rounding.
+    /// The same for a cube, by the ball around it: more than half its diagonal, for rounding.
     Containment contains_cube(const Eigen::Vector3f& centre, float edge) const {
         return containment(centre, 0.8661F * edge + rounding_m());
     }
@@ -153,8 +152,7 @@ inline Eigen::Vector3d direction_of(double azimuth_rad, double elevation_rad) {
     return {e.cos * a.cos, e.cos * a.sin, e.sin};
 }
 
-/// The unit vector at the angle `off_rad` from the boresight, and `around_rad` about it from y
-/// towards z.
+/// The unit vector `off_rad` from the boresight, and `around_rad` about it from y towards z.
 inline Eigen::Vector3d direction_off_boresight(double off_rad, double around_rad) {
     const SinCos off = sincos(off_rad);
     const SinCos around = sincos(around_rad);
@@ -178,8 +176,7 @@ inline Eigen::Vector3f direction(ViewShape shape, SinCosFloat across, SinCosFloa
     }
 }
 
-/// A strip of a view that lies within one beam: angles [across - width / 2, across + width / 2] by
-/// [along_min, along_max].
+/// A strip of a view in a beam: angles [across -+ width / 2] by [along_min, along_max].
 struct ViewColumn {
     int beam;
     double across;  ///< middle angle, rad

@@ -16,9 +16,8 @@ struct WaterRay {
     double height_m = 0.0;       ///< world
     double elevation_rad = 0.0;  ///< above the horizontal
     double time_s = 0.0;
-    /// Distance across the ray to a neighbouring ray, over their difference in elevation at the
-    /// start. With one speed of sound it equals the length of the ray. Its sign changes at a
-    /// caustic.
+    /// Distance across the ray to a neighbour, over their difference in elevation at the start.
+    /// With one speed of sound it equals the length of the ray. Its sign changes at a caustic.
     double tube_m = 0.0;
     double tube_per_m_s = 0.0;  ///< its growth with the integral of the speed along the ray
     std::size_t layer = 0;
@@ -43,8 +42,7 @@ Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& sou
                          const Eigen::Vector3d& direction, double range_m);
 
 /// The least width of a tube of rays, as a share of its width where sound goes straight: a two-way
-/// gain of 20 dB at most. Chosen, since rays lack the diffraction that limits the gain of a
-/// caustic.
+/// gain of 20 dB at most. Chosen: rays lack the diffraction that limits a caustic.
 inline constexpr double min_spread = 0.1;
 
 /// The surroundings of a true place as an instrument receives them: x - place becomes

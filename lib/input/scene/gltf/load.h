@@ -71,8 +71,7 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
                  const std::string& material_default, const Water& water,
                  std::size_t sharing_threshold = share_nothing);
 
-/// Reads one file without a table of materials: materials have only a name, "(no material)" if the
-/// file names none.
+/// Reads one file without a table of materials: materials have only a name, or "(no material)".
 Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models);
 Scene load_scene_geometry(const std::filesystem::path& path);
 

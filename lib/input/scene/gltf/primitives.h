@@ -70,8 +70,7 @@ struct PlacedPrimitive : PrimitiveSurface {
     Location in_node() const { return {where.file + " of node '" + mesh.instance + "'"}; }
 };
 
-/// Calls `visit` with every primitive of a file. Returns the number of primitives that are not
-/// surfaces.
+/// Calls `visit` with every primitive of a file. Returns the number that are no surfaces.
 std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const auto& visit) {
     std::uint64_t skipped = 0;
     const std::string path = file.placed->file.string();
@@ -151,8 +150,7 @@ struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
     std::vector<std::string> users = {};  ///< the first node that uses each material, for messages
 
-    /// The index of a primitive's material in the scene, which is added at its first use.
-    /// InputError if it has none.
+    /// The index of a primitive's material in the scene, added at its first use. InputError: none.
     std::uint32_t of(const PlacedPrimitive& primitive, Scene& scene);
 };
 

@@ -55,8 +55,7 @@ std::string glb_of(std::string header, std::string_view binary) {
     return bytes.append(header).append(binary);
 }
 
-/// The JSON without the parts that are not read: tinygltf would load textures, and it recurses as
-/// deep as the JSON does.
+/// The JSON without what is not read: tinygltf would load textures, and recurses as deep.
 std::string surfaces_of(std::string_view text, const Location& where) {
     constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
     constexpr int max_depth = 64;
@@ -181,8 +180,7 @@ bool stays_below(const std::string& uri) {
            !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
 }
 
-/// The buffers that tinygltf may read: in the folder of the glTF file or below, `bytes_left` at
-/// most.
+/// The buffers that tinygltf may read: in the file's folder or below, `bytes_left` at most.
 struct BufferFiles {
     const std::filesystem::path& gltf;
     std::size_t bytes_left = max_bytes;

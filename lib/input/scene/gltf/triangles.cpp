@@ -78,8 +78,7 @@ const ComponentType* component_of(int number_of_type) {
     return found == std::end(component_types) ? nullptr : found;
 }
 
-/// Finds `count` >= 1 elements from `offset` on in a buffer view and checks that they lie within
-/// their buffer.
+/// Finds `count` >= 1 elements from `offset` on in a buffer view, which lie within their buffer.
 Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset,
                 std::size_t element_bytes, std::size_t count, const Location& where) {
     const std::string name = fmt::format("bufferView {}", view_index);

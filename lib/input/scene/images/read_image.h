@@ -60,8 +60,7 @@ bool is_image_file(const std::filesystem::path& path);
 /// read wrongly, and without OpenImageIO.
 Image read_image(const std::filesystem::path& path);
 
-/// The EPSG code of the projected reference system of a GeoTIFF; 0 if it names none, or for another
-/// image. InputError as above.
+/// The EPSG code of a GeoTIFF's projected reference system; 0: none. InputError as above.
 int epsg_of(const std::filesystem::path& path);
 
 /// The pixels of an image in the coordinates of its map, m. If `pixel_m`, the size of a pixel, is

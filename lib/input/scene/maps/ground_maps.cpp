@@ -66,8 +66,7 @@ Probes probes_of(const GroundFootprint& footprint) {
     const double area_m2 =
         4.0 * std::fabs(footprint.u.x() * footprint.v.y() - footprint.u.y() * footprint.v.x());
     const double width_m = length_m > 0.0 ? area_m2 / length_m : 0.0;
-    // The probes are squares side by side, or fewer with gaps if the footprint is very long. A
-    // point has one probe.
+    // The probes are squares side by side, with gaps in very long footprints; a point has one.
     const double squares = length_m > 0.0 ? length_m / width_m : 1.0;
     Probes out;
     out.count = static_cast<int>(std::ceil(std::clamp(squares - 1e-6, 1.0, 1.0 * max_probes)));

@@ -146,8 +146,7 @@ class GroundMaps {
                                           const GroundFootprint& footprint,
                                           bool with_strength = true) const;
 
-    /// The materials of a footprint of an instance, each with its area and its power. The areas sum
-    /// to 1.
+    /// The materials of a footprint of an instance with area and power. The areas sum to 1.
     void shares_over(std::uint32_t instance, std::uint32_t own, const GroundFootprint& footprint,
                      std::vector<MaterialShare>& out) const;
 

@@ -26,8 +26,7 @@ Eigen::AlignedBox2d ground_of(const Scene& scene) {
 }
 
 /// Calls use(pixel, row, column) for each texel of the map within the scene. `pixel` is null for
-/// those that change nothing: they have no value, or are transparent. `section` is that of the
-/// mission, for messages.
+/// those that change nothing: they have no value, or are transparent. `section`: for messages.
 TexelFrame for_each_texel(const AppliedMapConfig& map, const Image& image, const char* section,
                           const Scene& scene, const auto& use) {
     const Location where{map.file.string()};
@@ -108,8 +107,7 @@ MaterialTexels read_material_map(
     return out;
 }
 
-/// A map of decibels, from an image of one channel, or one and alpha. Throws as the above, and for
-/// more than 100 dB.
+/// A map of decibels, of one channel, or one and alpha. Throws as above, and beyond 100 dB.
 StrengthTexels read_strength_map(const AppliedMapConfig& map, const Scene& scene) {
     const Image image = read_image(map.file);
     const Location where{map.file.string()};

@@ -22,8 +22,7 @@ struct SonarsimMeshPart {
 using SonarsimAddPart = void (*)(void* user, const SonarsimMeshPart* part);
 
 /// Reads the bytes of a file of `format` "obj", "stl" or "ply" and opens no other file. Calls `add`
-/// for every part in the order of the file. Returns 0, or 1 with the reason in `error`, which ends
-/// with a zero.
+/// for every part in order. Returns 0, or 1 with the reason in `error`, which ends with a zero.
 using SonarsimReadMesh = int (*)(const char* format, const char* bytes, std::size_t size,
                                  SonarsimAddPart add, void* user, char* error,
                                  std::size_t error_size);

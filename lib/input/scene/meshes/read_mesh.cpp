@@ -162,10 +162,11 @@ std::string_view whole_stl(std::string& text, const Location& where) {
     }
     if (bytes.size() < head) refuse(where, "is not an STL: it is too short for one");
     if (size > bytes.size() || bytes.size() - size >= triangle_bytes) {
-        refuse(where,
-               "is not a binary STL, or not whole: it claims {} triangles, which take {} bytes, and "
-               "has {}; copy or export it again",
-               claimed, size, bytes.size());
+        refuse(
+            where,
+            "is not a binary STL, or not whole: it claims {} triangles, which take {} bytes, and "
+            "has {}; copy or export it again",
+            claimed, size, bytes.size());
     }
     return bytes.substr(0, size);
 }
@@ -241,8 +242,7 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
     const std::string format = format_of(path);
     std::string bytes = read_file(path, max_mesh_bytes);
     if (format == "obj") bytes = mended_text(without_byte_order_mark(bytes), where);
-    // libassimp gives the faces before the first usemtl the material of that. This is its name for
-    // none.
+    // libassimp gives faces before the first usemtl its material. This is its name for none.
     if (format == "obj" && bytes.find("usemtl") != std::string::npos)
         bytes.insert(0, "usemtl DefaultMaterial\n");
     std::string_view whole = bytes;

@@ -11,8 +11,7 @@
 
 namespace sonarsim {
 
-/// The surface that objects rest on, with a grid over x and y for the search of triangles. World
-/// frame.
+/// The surface that objects rest on, with a grid over x and y to find triangles. World.
 class Bottom {
   public:
     explicit Bottom(Surface surface);

@@ -10,8 +10,7 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// Height of the second edge above the first where they cross, seen from above; minus infinity if
-/// they do not cross.
+/// Height of the second edge above the first where they cross from above; else minus infinity.
 double rise_at_crossing(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                         const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
     constexpr double none = -std::numeric_limits<double>::infinity();

@@ -14,8 +14,7 @@ namespace sonarsim {
 /// Returns the height by which `object` has to be raised so that it touches the bottom and nowhere
 /// reaches below the bottom's highest surface; negative if it hovers. Returns nullopt if a vertex
 /// has no bottom below or above it. Both are triangles, so the least gap lies where a vertex of one
-/// is above or below the other, or where two edges cross as seen from above; all of these are
-/// checked.
+/// is above or below the other, or where two edges cross as seen from above; all are checked.
 std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object);
 
 /// True if all of the object lies below the lowest surface of the bottom.

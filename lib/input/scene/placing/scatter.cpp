@@ -21,8 +21,7 @@ std::pair<std::int64_t, std::int64_t> cell_at(const Eigen::Vector2d& point, doub
     return {static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y())};
 }
 
-/// The quantity that is drawn for an object: the second word of the counter. The first word is the
-/// number of the attempt.
+/// What is drawn for an object: the second word of the counter. The first is the attempt's number.
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y, share };
 
 /// The draws of one object of one rule.

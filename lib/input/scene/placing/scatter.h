@@ -22,8 +22,7 @@ class TakenGround {
   public:
     void add(Hull hull);
 
-    /// True if a hull meets none of those that were added, and comes nearer than `spacing_m` to
-    /// none.
+    /// True if a hull comes nearer than `spacing_m` to none of those that were added.
     bool has_room(const Hull& room, double spacing_m) const;
 
   private:
@@ -31,8 +30,7 @@ class TakenGround {
     /// their box. Only cells with a hull are kept, in order.
     using Cells = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Hull>>;
 
-    /// The cells of each size, whose binary exponent is the key, m. Cells are wider than their
-    /// hulls.
+    /// The cells of each size, m, by its binary exponent. Cells are wider than their hulls.
     std::map<int, Cells> levels_;
 };
 

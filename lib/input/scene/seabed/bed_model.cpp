@@ -26,8 +26,7 @@ class Borders {
             append(low, triangle, triangle[0], triangle[1], triangle[2]);
             return;
         }
-        // Around the triangle: each corner is in one part, each crossing in the parts on both
-        // sides.
+        // Around the triangle: a corner is in one part, a crossing in those on both sides.
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             parts_[at[k]].push_back(triangle[k]);

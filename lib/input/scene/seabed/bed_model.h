@@ -21,8 +21,7 @@ struct BedGround {
 /// of sediments cut triangles, and change neither the surface nor that it is closed.
 BedGround ground_of(const Seabed& bed);
 
-/// A bed as tinygltf's structs, as if it were a glTF of the world, in metres with z up. The node
-/// "seabed" is its ground.
+/// A bed as structs of tinygltf, of the world, in metres with z up. Its node is "seabed".
 tinygltf::Model bed_model(const Seabed& bed);
 
 }  // namespace sonarsim

@@ -133,8 +133,7 @@ void add_roughness(const BedGrid& grid, const BedRoughnessConfig& roughness, std
     const double strength = roughness_strength(roughness.spectral_strength_cm4, exponent);
     if (strength == 0.0) return;
     // The square t of the shortest length of a field, in cells. The slopes of neighbouring facets
-    // correlate by (1 - 1 / (2 t)) exp(-1 / (4 t)) = 0.59 in that field; with less, images show
-    // single facets.
+    // correlate by (1 - 1 / (2 t)) exp(-1 / (4 t)) = 0.59 in that field; with less, facets show.
     constexpr double min_t = 1.6;
     constexpr double step = 4.0;
     // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.

@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// The shapes of rocks, here and in cuts_of(), are chosen so that they look like boulders. They have
-// no source.
+// The shapes of rocks, here and in cuts_of(), are chosen to look like boulders, without a source.
 constexpr std::uint32_t shape_count = 12;  ///< different rocks
 constexpr std::uint32_t levels = 3;        ///< levels of detail of each
 

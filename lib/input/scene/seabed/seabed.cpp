@@ -15,8 +15,7 @@ namespace {
 constexpr double max_cells_of_bed = 33554432.0;
 
 /// The cells from `low` to `high` along one axis, with a margin: the first, and the one after the
-/// last. A bed with a size has no cells outside it; if fewer than two of its cells remain, all are
-/// taken.
+/// last. A bed with a size has no cells outside it; if fewer than two remain, all are taken.
 std::array<double, 2> cells_within(double low, double high, double cell_m, double size_m) {
     constexpr double margin = 2.0;
     const double first = std::floor(low / cell_m) - margin;
@@ -120,9 +119,8 @@ BedSediments sediments_of(const BedGrid& grid, const std::vector<BedSedimentConf
         variance += amplitude * amplitude;
         if (wave_m <= patch_m) amplitude *= fall;
     }
-    // The slope of waves with one variance and the lengths patch_m, 2 patch_m, ... is 2 pi /
-    // patch_m times the root of 1 + 1/4 + ..., 7 / patch_m, so that a border is 0.1 to 0.6 patch_m
-    // wide.
+    // The slope of waves of one variance with lengths patch_m, 2 patch_m, ... is 2 pi / patch_m
+    // times the root of 1 + 1/4 + ..., 7 / patch_m, so that a border is 0.1 to 0.6 patch_m wide.
     const PhiloxKey key = bed_key(seed, BedDraw::sediments, 255);
     out.mixed = 0.3F + 1.9F * unit_float(philox({0, 0, 0, 0}, key).x0);
     double sum = 0.0;

@@ -31,8 +31,7 @@ std::vector<Surface> rock_shapes(std::uint64_t seed);
 std::vector<Rock> rocks_in(const Eigen::AlignedBox2d& area, const BedRockConfig& rocks,
                            double cell_m, std::uint64_t seed);
 
-/// The sediments of a grid, as indices into a list. A point has the index of as many limits as its
-/// value exceeds.
+/// The sediments of a grid, as indices into a list: the number of limits that a value exceeds.
 struct BedSediments {
     std::vector<std::uint8_t> cells;  ///< at the middles of the cells, in the order of the grid
     std::vector<float> values;        ///< likewise; none of a single sediment

@@ -49,8 +49,7 @@ void add_two(float* to, __m128 values) {
     _mm_storel_epi64(place, _mm_castps_si128(_mm_add_ps(before, values)));
 }
 
-/// The cells of the grid that receive the echoes of a block, and their shares in the next bin and
-/// the next column.
+/// The cells of the grid for a block's echoes, and their shares in the next bin and column.
 struct GridPlaces {
     PatchBlock::Array<std::int32_t> place;
     PatchBlock::Array<float> next_row, next_column;

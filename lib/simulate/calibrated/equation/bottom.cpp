@@ -23,9 +23,8 @@ std::vector<float> tables_of(std::span<const Backscatter> materials) {
 }
 
 /// 10 log mu of Lambert's rule. Roughness adds the share of the mirrored echo that heights of the
-/// root mean square h take, at a grazing angle of 45 degrees: R (1 - exp(-2 (k h)^2)) / pi. h
-/// follows from the roughness that flow meets (Flack and Schultz, J. Fluids Eng. 132 (2010),
-/// 041203).
+/// root mean square h take, at a grazing angle of 45 degrees: R (1 - exp(-2 (k h)^2)) / pi. h by
+/// the roughness that flow meets (Flack and Schultz, J. Fluids Eng. 132 (2010), 041203).
 double lambert_db_of(const Material& material, double reflection, double wavenumber) {
     constexpr double flow_per_height = 4.43;
     if (!material.roughness_mm) return material.lambert_db;

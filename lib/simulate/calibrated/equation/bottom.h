@@ -133,8 +133,7 @@ std::vector<float> two_way_transmissions(std::span<const Material> materials, do
 /// 9407, 1994, section II): facets near normal incidence, small waves elsewhere, both weakened by
 /// the bubbles below them, and the echo of these bubbles. It was made for 10 to 100 kHz and is an
 /// extrapolation above. Below 10 kHz it is the fit of R. P. Chapman and J. H. Harris, J. Acoust.
-/// Soc. Am. 34 (1962) 1592, which was measured from 0.4 to 6.4 kHz below 40 degrees, with the same
-/// facets.
+/// Soc. Am. 34 (1962) 1592, which was measured from 0.4 to 6.4 kHz below 40 degrees, same facets.
 double wind_surface_section(double grazing_rad, double wind_m_s, double frequency_hz);
 
 /// The same as a material.

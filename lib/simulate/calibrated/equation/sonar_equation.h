@@ -74,8 +74,7 @@ struct Amplitudes {
 void weigh_by_elevation(const SineTable& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes);
 
-/// Fills `echoes` except for their columns. Echoes outside the range have power 0; returns their
-/// number.
+/// Fills `echoes` but for the columns. Echoes outside the range have power 0; returns their number.
 std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& scattering,
                                    const SonarEquation& equation, PointEchoes& echoes);
 

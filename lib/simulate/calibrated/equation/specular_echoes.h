@@ -54,11 +54,10 @@ struct SpecularBlock {
 ///
 ///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,
 ///
-/// in the range bin of (r + s) / 2: the reflector is assumed to be flat, so sound spreads as if it
-/// came from the image. S is bistatic, for the two directions (Backscatter::between). Sound takes
-/// the path in both senses with the same power: out to the image and back from the piece, and the
-/// reverse. D is the transmitting pattern towards the one end times the receiving pattern towards
-/// the other.
+/// in the range bin of (r + s) / 2: the reflector is assumed to be flat, so sound spreads as from
+/// the image. S is bistatic, for the two directions (Backscatter::between). Sound takes the path in
+/// both senses with the same power: out to the image and back from the piece, and the reverse. D is
+/// the transmitting pattern towards the one end times the receiving pattern towards the other.
 ///
 /// Returns the number of these echoes outside the range.
 std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,

@@ -11,8 +11,7 @@ namespace sonarsim {
 ///
 ///     w(x) = p + (1 - p) cos^2(pi x),
 ///
-/// a cosine on a pedestal: p = 1 is uniform (side lobes at -13.3 dB), p = 0.08 is Hamming's (-42
-/// dB).
+/// a cosine on a pedestal: p = 1 is uniform (side lobes at -13.3 dB), 0.08 Hamming's (-42 dB).
 struct LineArray {
     double wavelengths = 1.0;  ///< L / lambda
     double pedestal = 1.0;     ///< p
@@ -35,8 +34,7 @@ double line_pattern(const LineArray& array, double u);
 /// power is halved at half of `width_rad` off it.
 LineArray line_array(double width_rad, double side_lobe_db);
 
-/// The amplitude of a line array that is not focused, at the sine u of the angle off its axis and
-/// the range r:
+/// The amplitude of an unfocused line array at the sine u of the angle off its axis and range r:
 ///
 ///     integral of w(x) exp(-2 pi i (x u L / lambda - x^2 L^2 / (2 r lambda))) dx
 ///

@@ -52,8 +52,7 @@ inline Ints8 load_words(const std::uint32_t* words) {
 /// Bins of a column whose normals are drawn together, since a counter gives two random words.
 inline constexpr int drawn_together = 2 * lanes;
 
-/// Complex normal numbers of `drawn_together` bins of a column, from `row` on, a multiple of
-/// `drawn_together`.
+/// Complex normal numbers of `drawn_together` bins of a column, from `row` on, a multiple of it.
 inline std::array<Complexes8, 2> column_normals(int row, int column, PhiloxKey key) {
     alignas(32) std::array<std::uint32_t, lanes> a, b;
     for (int lane = 0; lane < lanes; ++lane) {

@@ -54,8 +54,7 @@ class Texture {
     Texture(std::span<const Material> materials, double factor);
 
     bool exists() const { return !fine_.empty(); }
-    /// Multiplies the powers of pieces of `samples` by the factors at their places. `key` moves the
-    /// squares.
+    /// Multiplies the powers of pieces of `samples` by the factors there. `key` moves the squares.
     void apply(std::span<const Sample> samples, const PatchBlock& pieces, const SonarInScene& sonar,
                const TruePlaces& places, PhiloxKey key, PatchBlock::Array<float>& power) const;
 

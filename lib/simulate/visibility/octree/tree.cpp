@@ -76,8 +76,7 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
         return;
     }
     home->area += area;
-    // The last group takes all directions. Opposite normals are not added, so that the sum stays
-    // away from zero.
+    // The last group takes all directions, but not opposite normals: the sum is not near 0.
     if (best >= 0.0) home->normal += area * normal;
     if (area > home->largest) {
         home->largest = area;
@@ -204,8 +203,7 @@ Octree::Node* Octree::add_node(const CubeIndex& index, std::vector<std::uint32_t
     node.index = index;
     const double edge_leaves = cube(index).edge / leaf_m_;
     const bool few = triangles.size() <= triangles_per_tile;
-    // If triangles are tiny, a tile holds many of them, so that the upper part does not grow
-    // forever.
+    // A tile holds many tiny triangles, so that the upper part does not grow forever.
     node.is_tile = (edge_leaves <= leaves_per_tile_edge && few) || edge_leaves <= 2.0;
     node.triangles = std::move(triangles);
     return &node;

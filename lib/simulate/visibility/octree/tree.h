@@ -32,8 +32,7 @@ struct CubeIndex {
     }
 };
 
-/// The surface inside the cube (x, y, z) of a tile: that of the direction and material with the
-/// largest area.
+/// The surface inside the cube (x, y, z) of a tile: of the direction and material with most area.
 struct Leaf {
     Eigen::Vector3f normal;  ///< area-weighted mean, unit, scene-local
     std::uint32_t triangle;  ///< the largest of its triangles, for material and instance

@@ -20,8 +20,7 @@ constexpr int newton_steps = 3;
 // A ray steeper than this has no azimuth.
 constexpr double steep_cosine = 1e-6;
 
-/// Axes at a point of a ray: along it, across it in its vertical plane (upwards), across it to
-/// port.
+/// Axes at a point of a ray: along it, across in its vertical plane (upwards), across to port.
 struct RayAxes {
     Eigen::Vector3d along, across, port;
 

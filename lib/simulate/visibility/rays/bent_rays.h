@@ -35,8 +35,7 @@ struct BentHit {
     RayTube tube;            ///< scene-local
 };
 
-/// Casts rays that leave `position`, scene-local. Rays meet nothing before the ranges `from_m`
-/// [rays]; empty: 0.
+/// Casts rays from `position`, scene-local, which meet nothing before `from_m` [rays]; empty: 0.
 void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::Vector3f& position,
                     std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
                     float reach_m, std::span<BentHit> hits);

@@ -7,8 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-// The plane of a ray whose segment is shorter than this share of a step is a poor estimate across
-// the column.
+// The plane of a ray whose segment is shorter than this share of a step is poor across the column.
 constexpr float short_segment = 0.1F;
 
 /// The border between the segments of two neighbouring rays, and the ranges of both planes there.
@@ -85,8 +84,7 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     const auto onto_surface = [&](const Eigen::Vector3f& beside) -> Eigen::Vector3f {
         return beside * range_on_plane(ray, beside, about, max_change);
     };
-    // A point whose range was limited lies off the plane; multipath would start from there, so it
-    // is projected back.
+    // A point whose range was limited lies off the plane, and multipath starts there.
     const auto onto_plane = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
         return p - (ray.normal.dot(p) + ray.height_m) * ray.normal;
     };

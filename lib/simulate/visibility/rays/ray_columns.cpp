@@ -157,8 +157,7 @@ class ColumnCaster {
 
     /// The rays of the whole columns, in tiles. Rays with similar directions traverse Embree's tree
     /// together, twice as fast as column by column. A packet of a fan has one elevation, since at
-    /// grazing incidence neighbours in azimuth meet surface closer together than neighbours in
-    /// elevation.
+    /// grazing incidence neighbours in azimuth meet closer surface than those in elevation.
     std::vector<int> in_tiles() const {
         const int across = view_.shape == ViewShape::fan ? 8 : 4;
         constexpr int along = 4;
@@ -247,8 +246,7 @@ class ColumnCaster {
         cast_count_ = out_.rays.size();
     }
 
-    /// Stores the estimate of a gap that has been split `level` times, and adds the gap to `gaps`
-    /// if it must be split.
+    /// Stores the estimate of a gap split `level` times, and adds it to `gaps` if it must be split.
     void estimate(const Gap& gap, int level, std::vector<Gap>& gaps) {
         CastRay& below = out_.rays[gap.below];
         const GapEstimate found = estimate_gap(below, out_.rays[gap.above], sampling_, reach_m_);

@@ -60,8 +60,7 @@ struct CastRay {
     bool missed() const { return facet == Caster::nothing; }
 };
 
-/// Estimate of the surface between two neighbouring rays of a column, from the planes that they
-/// met.
+/// The surface between two neighbouring rays of a column, by the planes that they met.
 struct GapEstimate {
     bool continuous = true;  ///< the surface continues between the rays
     float border = 0.5F;     ///< border of the two planes, as a share of the gap
@@ -102,8 +101,7 @@ struct RayColumns {
     std::vector<CastRay> rays;
     std::vector<RayTube> tubes;  ///< one for each ray where sound bends, else empty
     std::vector<RayColumn> columns;
-    /// [whole_columns, Sampling::rays]: nonzero if edge strips leave the column only its middle
-    /// strip.
+    /// [whole_columns, Sampling::rays]: nonzero if edge strips leave only the middle strip.
     std::vector<std::uint8_t> narrowed;
     std::size_t whole_columns = 0;
     std::uint64_t dropped = 0;  ///< as in Samples

@@ -83,8 +83,7 @@ class RaysEngine final : public VisibilityEngine {
         return sampling;
     }
 
-    /// The number of beams that are cast together: all, or if the rays are dense, as many as
-    /// bounded memory allows.
+    /// The number of beams cast together: all, or of dense rays as many as bounded memory allows.
     int beams_together(const View& view, const Sampling& sampling) const {
         if (density_ == 1 && along_ == 1) return std::max(view.beams, 1);
         return std::max(max_rays_together / (sampling.columns * sampling.rays), 1);

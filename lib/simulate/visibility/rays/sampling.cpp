@@ -78,8 +78,8 @@ Sampling sampling_for(const View& view) {
         case ViewShape::fan: {
             // The error of a fan falls with the spacing of its rays in elevation and in azimuth, so
             // a beam wider than the usual half degree gets more than one column.
-            sampling.columns = static_cast<int>(std::clamp(
-                std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
+            sampling.columns = static_cast<int>(
+                std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
             const double wanted = 0.75 * density * view.elevation_rad * view.beams *
                                   sampling.columns / view.azimuth_rad;
             sampling.rays = rays(wanted, min_fan_rays);
@@ -172,8 +172,7 @@ float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
     const float middle = 0.5F * (a.along + b.along);
     if (in_reach(a, reach_m) == in_reach(b, reach_m)) return middle;
     // One ray met a surface within reach, the other did not. At grazing incidence that surface may
-    // extend to the greatest range within a tiny angle, so the new ray goes to where the plane
-    // leaves the reach.
+    // extend to the greatest range within a tiny angle, so the new ray goes to that place.
     const CastRay& near = in_reach(a, reach_m) ? a : b;
     const CastRay& other = in_reach(a, reach_m) ? b : a;
     const float cosine_leaving = near.height_m / (reach_m * (1.0F + 0.5F * overreach));

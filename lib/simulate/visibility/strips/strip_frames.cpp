@@ -9,8 +9,7 @@ namespace {
 constexpr double widest_sector = 2.1;  // rad
 
 // A column of a side lies between two u, its beam between two elevations: at an azimuth a from the
-// middle of a sector the two differ by a^2 / 2. With the mean of that, 0.3 % at the ends of a
-// sector.
+// middle of a sector the two differ by a^2 / 2. With its mean, 0.3 % at the ends of a sector.
 constexpr double widest_side = 0.2;  // rad
 
 constexpr double widest_side_column = 0.035;  // sides, rad

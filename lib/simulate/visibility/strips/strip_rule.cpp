@@ -25,8 +25,7 @@ constexpr float side_columns = 13.0F;
 constexpr double samples_along = 32.0;
 constexpr double side_along_rad = 0.0125;
 
-// Wedges of energies are shorter than the pieces of labels. Wedges of 16 bins leave holes in
-// shadows.
+// Wedges of energies are shorter than the pieces of labels. 16 bins leave holes in shadows.
 constexpr float wedge_of_energies = 7.0F;
 
 }  // namespace

@@ -218,8 +218,7 @@ StripSamples::Quad StripSamples::within_range(const Quad& quad) const {
             quad.far_low + to * far, quad.area_m2 * share};
 }
 
-/// Cuts a quadrilateral along w into parallelograms whose range bends little and whose sides have
-/// similar widths.
+/// Cuts a quadrilateral along w into parallelograms whose range bends little, with similar widths.
 void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, bool one_part) {
     const Quad quad = within_range(whole);
     if (!(quad.area_m2 > 0.0F)) return;

@@ -40,8 +40,7 @@ class PieceVisibility {
     /// `pieces` must outlive it.
     explicit PieceVisibility(const ColumnPieces& pieces) : pieces_(pieces) {}
 
-    /// Begins with piece `i`. Pieces that may hide some of it are found as they are needed, and
-    /// kept for further lines.
+    /// Begins with piece `i`. Pieces that may hide some of it are found as needed, and kept.
     void begin(int i);
 
     /// The visible parts of the piece within `whole`, an interval on the line u. False: none.

@@ -18,8 +18,7 @@ constexpr float clipped_share = 1e-3F;
 constexpr float clipped_aside = 8.0F;
 constexpr float clip_margin = 0.02F;  // in u and w
 
-// A plane whose distance from the sensor is less than this share of the triangle's distance is
-// edge-on to within rounding.
+// A plane nearer to the sensor than this share of the triangle's distance is edge-on by rounding.
 constexpr float edge_on_share = 1e-7F;
 
 // A thin triangle is at least this many columns long.

@@ -12,9 +12,8 @@
 
 namespace sonarsim {
 
-// A view is cut into columns. Each lies in a frame of its own sector of the view, with the axes
-// forward (X), across (U) and along (W), and is an interval of u in the picture plane u = U / X,
-// w = W / X:
+// A view is cut into columns. Each lies in a frame of its sector of the view, with the axes forward
+// (X), across (U), along (W), and is an interval of u in the picture plane u = U / X, w = W / X:
 //   fan:   W is the sensor's z axis: a column is an interval of azimuth;
 //   cone:  X is the boresight: a column is a chord of the cone;
 //   sides: U is the sensor's z axis: a column runs along the fan.
@@ -50,8 +49,7 @@ struct ColumnFrame {
             const float slope = half > 0.0F ? at_u / half : 0.0F;
             return {-half, half, slope, -slope};
         }
-        // A parallel of the view is a hyperbola of the picture plane: w = tan(latitude)
-        // sqrt(1 + u^2).
+        // A parallel of the view is a hyperbola of the plane: w = tan(latitude) sqrt(1 + u^2).
         const float secant = std::sqrt(1.0F + at_u * at_u);
         return {tan_low * secant, tan_high * secant, tan_low * at_u / secant,
                 tan_high * at_u / secant};
@@ -71,15 +69,13 @@ struct ColumnFrame {
     }
 };
 
-/// The sectors of a view, in the order of their beams. Each beam has one least column, or more if
-/// it is wide; a cone has 32.
+/// The sectors of a view, by their beams: a beam has one least column, a wide one more, a cone 32.
 std::vector<ColumnFrame> strip_frames(const View& view);
 
 /// The borders of the columns of a frame, ascending, if each of its least columns has `parts`.
 std::vector<float> column_borders(const ColumnFrame& frame, int parts);
 
-/// A triangle in the picture plane of a frame, with its corners in ascending u. Its plane is
-/// q = 1 / X, linear in u and w.
+/// A triangle in a frame's picture plane, in ascending u. Its plane q = 1 / X is linear in u, w.
 struct StripTriangle {
     float u0, u1, u2;
     float w0, w1;
