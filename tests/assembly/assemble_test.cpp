@@ -70,8 +70,7 @@ TEST_CASE("assemble: a made bed is as large wherever in its file an object lies"
     const Eigen::Vector2d near = size("file: wall.glb");
     CHECK(near.maxCoeff() < 40.0);
     CHECK(size("file: far.glb, position_m: [-1000, -500, 0]") == near);
-    // Turned by 90 degrees (x, y) is (-y, x); the wall, as long as the ground in range, leaves
-    // that.
+    // Turned by 90 degrees (x, y) is (-y, x); the wall, as long as that ground, leaves it.
     CHECK(size("file: far.glb, scale: 0.5, rpy_deg: [0, 0, 90], position_m: [250, -500, 0]")
               .maxCoeff() < 40.0);
     // A slope would turn it about its origin, 1118 m away.

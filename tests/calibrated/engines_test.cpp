@@ -34,8 +34,7 @@ double error_of(const Sonar& sonar, const Scene& scene, EngineKind engine, const
 
 }  // namespace
 
-// Stones are smaller than a column is wide, and so is the beam: strips weigh each piece by the
-// beam at its middle.
+// Stones and the beam are narrower than a column: pieces weigh as the beam at their middles.
 TEST_CASE("side-scan: stones in a narrow beam are visible") {
     Uniform random(29);
     SonarConfig config = calibrated(default_sonar(SonarKind::sidescan), 4e5);
@@ -130,8 +129,7 @@ TEST_CASE("strips: wedges of ripples have their energy where it belongs") {
     CHECK(error < 0.02);
 }
 
-// A strip as long as the bottom is wide would weigh the narrow middle of the beam as much as
-// its edge.
+// A strip as long as the bottom is wide would weigh a beam's middle as much as its edge.
 TEST_CASE("rays and strips agree within twice the error goal") {
     Scene with_objects = flat_bottom();
     add_box(with_objects, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, 0);

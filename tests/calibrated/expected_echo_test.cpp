@@ -20,8 +20,7 @@ Scene sand_at(double range_m) {
                      -range_m * std::sin(radians(20.0)));
 }
 
-/// The mean of the rows about a range. Off the middle a beam is a cone, and meets the floor at
-/// another angle.
+/// The mean of the rows about a range. Off the middle a beam is a cone at another angle.
 double mean_at(const Sonar& sonar, const std::vector<float>& image, double range_m, int rows) {
     const int beams = sonar.settings.view.beams;
     return image_array(image, beams)

@@ -200,8 +200,7 @@ TEST_CASE("levels: white in a fan is the 99 % quantile of the speckle of sand") 
     CHECK(make_sonar(config, {}).settings.model->info.white == 1.0);
 }
 
-// At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. After the gain both
-// echoes are equally strong.
+// At 10 MHz two-way absorption is more than 150 dB from 2 to 4.5 m. Behind the gain both are equal.
 TEST_CASE("levels: gain makes up for absorption far below what e^-43 leaves") {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e7);
     set_fan(config, 40.0, 10.0, 16);

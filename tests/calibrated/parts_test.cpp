@@ -42,8 +42,7 @@ TEST_CASE("fourier: the definition, and the inverse") {
 }
 
 TEST_CASE("beams: noise has the power asked for and the correlation of the aperture") {
-    // A uniform aperture: the beams' complex amplitudes are correlated by sinc(u L), their
-    // powers by its square.
+    // A uniform aperture: complex amplitudes are correlated by sinc(u L), powers by its square.
     const LineArray array = line_array(radians(0.4), -13.3);
     std::vector<double> sines;
     sines.reserve(256);

@@ -18,8 +18,7 @@ double half_power_width(const Eigen::ArrayXd& values) {
     return high - (half - values[high]) / (values[high - 1] - values[high]) - from;
 }
 
-/// The half-power width of an aperture with errors of phase, as a sine: its pattern is the
-/// transform of its weight.
+/// The half-power width of an aperture with errors of phase, as a sine, by the transform.
 double aperture_width(const LineArray& array) {
     Eigen::ArrayXd pattern(601);
     constexpr double step = 0.01;  // in lambda / L

@@ -21,8 +21,7 @@ double db_at(const Backscatter& bed, double grazing_deg) {
 
 constexpr std::array<double, 9> grazing_deg{5, 10, 20, 30, 45, 60, 75, 85, 90};
 
-/// The shadowing of the report in dB, Eq. 43 to 45, of a bed by its grain size in water of 1,500
-/// m/s.
+/// The shadowing of the report in dB, Eq. 43 to 45, of a bed by its grain size, at 1,500 m/s.
 double shadowing_db(double phi, double frequency_hz, double angle_deg) {
     const double alpha = 0.5 * 3.25 - 1.0;
     const double k_per_cm = 2.0 * pi * frequency_hz / 150000.0;

@@ -132,17 +132,15 @@ TEST_CASE("speckle of three presets: Rayleigh, correlated as beam and pulse have
 }
 
 TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the pulse say") {
-    // Moved by (x, y), the way to a scatterer at azimuth a and back is shorter by
-    // 2 (x cos a + y sin a): within a beam as if the aperture were moved by 2 (y - x tan a).
-    // The scatterer is seen under another angle, by (y cos a - x sin a) / r less, and aside by
-    // a yaw; and its echo comes earlier.
+    // Moved by (x, y), the way to a scatterer at azimuth a and back is shorter by 2 (x cos a + y
+    // sin a): within a beam as if the aperture were moved by 2 (y - x tan a). The scatterer is seen
+    // under another angle, by (y cos a - x sin a) / r less, and aside by a yaw; and sooner.
     const Patch patch("didson_1800khz", 5.0, 0.02, 66, one_sample);
     const LineArray array = array_of(patch.sonar);
     const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
     constexpr int outer = 10;
     const int inner = patch.beams() - 2 * outer;
-    // The correlation of one seed is off by about 0.02: the mean of twelve is compared with the
-    // closed form.
+    // The correlation of one seed is off by about 0.02: the mean of twelve has the closed form.
     constexpr std::uint32_t seeds = 12;
     std::vector<std::vector<double>> here;
     for (std::uint32_t seed = 1; seed <= seeds; ++seed) {

@@ -28,8 +28,7 @@ TEST_CASE("near field: on the axis of an array without taper, Fresnel's integral
     CHECK(std::fabs(std::abs(unfocused_pattern(array, 0.0, wavelength, 0.0)) - 1.0) < 1e-9);
 }
 
-// 0.1 degrees at 900 kHz, 0.83 m long: the far field begins beyond 400 m. A narrow view and a
-// wide one.
+// 0.1 degrees at 900 kHz, 0.83 m long: the far field begins beyond 400 m. Narrow and wide views.
 TEST_CASE("near field: the table of a long array is the pattern") {
     struct Case {
         double side_lobe_db, frequency_hz, max_sine;

@@ -3,8 +3,7 @@
 #include "input/scene/materials.h"
 #include "target.h"
 
-// Any bytes as a material CSV: materials with positive finite densities and speeds and with finite
-// numbers else.
+// Any bytes as a material CSV: materials with positive densities and speeds and finite numbers.
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace sonarsim;

@@ -14,8 +14,7 @@
 #include "input/scene/scene.h"
 #include "input/scene/summary.h"
 
-// The targets share this. Each takes any bytes: the reader keeps its promises, or throws
-// InputError.
+// The targets share this. Each takes any bytes: the reader is right or throws InputError.
 
 namespace sonarsim {
 

@@ -63,8 +63,7 @@ struct HardCase {
     HardTrial trial(SonarKind kind) const;
 };
 
-/// Floors, walls and rooms; triangles that are odd; the tank, changed in a way that changes no
-/// image.
+/// Floors, walls and rooms; triangles that are odd; the tank, changed without changing an image.
 std::vector<HardCase> hard_places();
 std::vector<HardCase> hard_geometry();
 std::vector<HardCase> hard_invariances();

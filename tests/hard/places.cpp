@@ -115,8 +115,7 @@ std::vector<float> seam_law(const HardContext& context) {
     return truth;
 }
 
-/// A floor whose seam runs along the boresight, the edge of two beams: R = 0.5 to port, 0 to
-/// starboard.
+/// A floor whose seam is the boresight, the edge of two beams: R = 0.5 to port, 0 to starboard.
 HardCase seam() {
     Scene scene = rectangle_scene({-30, 0, 0}, {30, 30, 0}, 0.5F);
     add_rectangle(scene, {-30, -30, 0}, {30, 0, 0}, add_material(scene, 0.0F));

@@ -1,5 +1,4 @@
-// The masks of objects in the calibrated model: they lie where its beams, which are cones, receive
-// the echo.
+// The masks of objects in the calibrated model lie where its beams, cones, receive the echo.
 
 #include "labels/cone_fan.h"
 

@@ -7,8 +7,7 @@ TEST_CASE("every key has a meaning, and a default unless it is required or free 
         for (const KeyReference& key : section.keys) {
             CAPTURE_ALL(section.path, key.name);
             CHECK(!key.meaning.empty());
-            // A key that varies has one distribution, and a seabed may have no size, a rule no
-            // area.
+            // A key that varies has one distribution, a seabed may lack a size, a rule an area.
             const bool free = key.type == "text" || key.type == "path" || key.type == "section" ||
                               section.path == "vary.0" || key.name == "size_m" ||
                               key.name.starts_with("area_m") || key.name == "files";

@@ -99,8 +99,7 @@ TEST_CASE("cells have names of their own") {
 }
 
 TEST_CASE("each quarter of a block of pixels follows the laws by itself") {
-    // Pixels share counters of Philox: normal draws in fours, 32 pixels apart, Rayleigh draws in
-    // twos, 64 apart.
+    // Pixels share counters of Philox: normal draws in fours, 32 apart, Rayleigh in twos, 64 apart.
     constexpr int blocks = 800;
     struct Law {
         std::vector<float> image;
@@ -197,9 +196,8 @@ TEST_CASE("streaks: the rows of a floor are those that lie within the angle") {
 }
 
 TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
-    // Half edges along and across the line of sight, in bins so long that nothing is cut. Along,
-    // range is linear: 5 -+ 0.2. Across it is sqrt(25 + s^2), which reaches from 5 to 5 + 0.3^2
-    // / 10.
+    // Half edges along and across the line of sight, in long bins. Along, range is linear: 5 -+
+    // 0.2. Across it is sqrt(25 + s^2), which reaches from 5 to 5 + 0.3^2 / 10.
     Material material;
     material.reflection = 0.25F;
     for (const float along : {0.0F, 0.2F}) {

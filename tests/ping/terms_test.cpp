@@ -35,8 +35,7 @@ TEST_CASE_FIXTURE(Everything,
                   "a term left out of an image is a term that the sonar's settings do not have") {
     const auto stages = form_stages(traced, sonar, scene, key);
 
-    // From the whole ping downwards, one setting after the other is taken out and the ping traced
-    // anew.
+    // From the whole ping downwards, one setting after the other is taken out, and the ping traced.
     REQUIRE(stages.size() == 5);
     CHECK(stages[4].intensity == render());
     change_paper_model(sonar, [](PaperModel& model) { model.streaks.mode = StreakMode::none; });

@@ -83,8 +83,7 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
 }
 
 TEST_CASE("rays and points of the surface together add up to its area") {
-    // Two plates that face the sonar, one behind the other. The near one hides 1.5 times its size
-    // in the farther one.
+    // Two plates that face the sonar, one behind the other. The near one hides 1.5 times its size.
     Scene plates = rectangle_scene({4, -0.3F, -0.3F}, {4, 0.1F, 0.2F}, 0.5F, 3);
     add_rectangle(plates, {6, -0.6F, -0.6F}, {6, 0.6F, 0.6F}, 0, 50);
     // A sphere at 4 m. The visible cap ends where sight lines touch it: its area is

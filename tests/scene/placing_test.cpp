@@ -67,8 +67,7 @@ Surface plane(double half_m, double a, double b) {
     return out;
 }
 
-/// The least height above the bottom, of the edges in steps of a millimetre and of the faces over
-/// the nodes of the bottom.
+/// The least height above the bottom, of edges in millimetres and of faces over its nodes.
 double min_gap(const Surface& object) {
     double gap = 1e9;
     const auto node_of = [](double x) { return (x + Waves::half_m) / Waves::cell_m; };

@@ -93,8 +93,7 @@ TEST_CASE_FIXTURE(AmongPlates, "shutter: every label of a beam is that of its gr
                 CHECK(std::memcmp(ours.data(), own.data(), ours.size_bytes()) == 0);
             }
         });
-        // A list that lacks a label leaves it empty: all vectors, but two that are found later or
-        // by object.
+        // A list that lacks a label leaves it empty: all vectors, but two found later or by object.
         CHECK(sizeof(PingLabels) == 2 * sizeof(int) + (listed + 2) * sizeof(std::vector<float>));
     }
 }

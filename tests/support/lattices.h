@@ -15,8 +15,7 @@ struct Lattice {
 };
 
 /// Draws scene `number`: shape, size, thickness, place and the sonar's angles, welded bars and a
-/// floor in half of the scenes each. The number decides the kind of the sonar; half are imaging
-/// sonars.
+/// floor in half of the scenes each. The number decides the sonar; half are imaging.
 Lattice draw_lattice(std::uint32_t number);
 
 }  // namespace sonarsim::test

@@ -6,11 +6,9 @@
 
 namespace sonarsim::test {
 
-// Test scenes with simple geometry, built in memory. Materials are named by their reflection
-// coefficient.
+// Test scenes with simple geometry, built in memory. Materials are named by their reflection.
 
-/// An empty scene for shapes. `origin` becomes Scene::origin; coordinates of shapes are relative to
-/// it.
+/// An empty scene for shapes. `origin` becomes Scene::origin; shapes are relative to it.
 Scene empty_scene(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// The index of a material with power reflection coefficient `reflection`.

@@ -10,8 +10,7 @@ namespace sonarsim::test {
 /// Two small sonars in the tank, the second at every third pose, noise on.
 Mission small_mission(const std::filesystem::path& output_folder);
 
-/// All four kinds of sonar over the floor of the tank, noise on; the echosounder pings at every
-/// second pose.
+/// All four kinds of sonar over the floor of the tank, noise on; the echosounder pings at half.
 Mission survey_mission(const std::filesystem::path& output_folder);
 
 /// Scene, poses and sonars of a mission, made in memory: `poses` poses at 10 Hz, moving along x.

@@ -7,8 +7,7 @@
 
 namespace {
 
-/// The expected echo of a sample at p_i, from the geometry of the scene; none if the intensity is
-/// not positive.
+/// The expected echo of a sample at p_i, from the scene's geometry; none if it is not positive.
 struct Expected {
     double range;
     double azimuth;

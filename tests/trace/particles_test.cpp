@@ -17,8 +17,7 @@ TEST_CASE("particles: they drift, and bubbles rise and begin anew") {
     Particle fish = particle_at(1.0, 2.0, -3.0);
     fish.velocity_m_s = {0.5, -0.25, 0.0};
     CHECK((place_at(fish, 4.0) - Eigen::Vector3d(3.0, 1.0, -3.0)).norm() < 1e-12);
-    // From 4 m below the top of 10 m at 0.3 m/s: after 20 s it is 2 m above it, so 2 m above
-    // the bottom.
+    // From 4 m below the top of 10 m at 0.3 m/s: after 20 s it is 2 m above the bottom.
     Particle bubble = particle_at(0.0, 0.0, -6.0);
     bubble.velocity_m_s = {0.1, 0.0, 0.3};
     bubble.bottom_m = -12.0;

@@ -58,8 +58,7 @@ TEST_CASE("resample: times are t0 + k / rate, and the last pose counts where it 
         CHECK(poses[k].t_s == 1.0 + static_cast<double>(k) / 10.0);  // not a running sum
     CHECK(poses[500].T_world_vehicle.translation == Eigen::Vector3d(5, -10, 15));
     CHECK(distance(poses[500].T_world_vehicle.rotation, yawed(45)) < 1e-15);
-    // 0.3 is less than 3 * 0.1 in doubles. 2e-10 s short of the grid counts as on it; 2e-9 does
-    // not.
+    // 0.3 is less than 3 * 0.1 in doubles. 2e-10 s before the grid is on it, 2e-9 not.
     const std::pair<double, std::size_t> counts[] = {
         {0.95, 10}, {1.0, 11}, {1.05, 11}, {0.3, 4}, {1.0 - 2e-10, 11}, {1.0 - 2e-9, 10}};
     for (const auto& poses_to : counts)

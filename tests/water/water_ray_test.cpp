@@ -158,8 +158,7 @@ TEST_CASE("a place by range and direction, and level rays at a node end") {
 TEST_CASE("water ray: apparent places are the inverse of true ones, with their rays' spread") {
     // In a constant gradient g a ray of the elevation a, cos(a) / c constant, has gone the distance
     // c (sin a - sin b) / (g cos a) where its elevation is b. Sound that spreads over W X / cos(a)
-    // for each solid angle, W = |dX / da sin b| at one height, has the power of range^2 by that,
-    // both ways.
+    // for each solid angle, W = |dX / da sin b| at one height, has the power of range^2 by that.
     constexpr double g = 0.1;
     const SoundProfile profile{{-500.0, 500.0}, {1500.0 - 500.0 * g, 1500.0 + 500.0 * g}, 1480.0};
     std::mt19937 random(5);

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A hash of an edge: in the opposite direction its negative. Those of a closed part add to 0.
+/// A hash of an edge: in the opposite direction its negative. A closed part has the sum 0.
 std::uint64_t hash_of_edge(std::uint32_t from, std::uint32_t to) {
     if (from == to) return 0;
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15U;
@@ -22,19 +22,73 @@ std::uint64_t hash_of_edge(std::uint32_t from, std::uint32_t to) {
     return from < to ? hash : -hash;
 }
 
-/// Sums over a part of a mesh.
-struct PartSums {
+/// A part of a mesh.
+struct MeshPart {
+    std::vector<TriangleCorners> triangles;
     Eigen::AlignedBox3f box;
     std::uint64_t edges = 0;
     double volume = 0.0;  ///< times 6, m^3
     double area = 0.0;    ///< times 2, m^2
-
-    Solid solid() const {
-        constexpr double least = 1e-5;  // a sphere has 0.2
-        if (edges != 0 || !(std::fabs(volume) > least * area * std::sqrt(area))) return {};
-        return {box, volume > 0.0 ? 1.0F : -1.0F};
-    }
 };
+
+/// How often lines along z from a point of triangle `own` leave the part more than they enter it.
+int times_left(std::span<const std::array<Eigen::Vector3d, 3>> part, std::size_t own,
+               const Eigen::Vector3d& from) {
+    int sum = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const auto side = [&](int k) {
+            const Eigen::Vector3d a = part[i][k] - from;
+            const Eigen::Vector3d b = part[i][(k + 1) % 3] - from;
+            return a.x() * b.y() - a.y() * b.x();
+        };
+        const double w0 = side(1);
+        const double w1 = side(2);
+        const double w2 = side(0);
+        const bool hits = w0 < 0.0 ? w1 < 0.0 && w2 < 0.0 : w0 > 0.0 && w1 > 0.0 && w2 > 0.0;
+        if (!hits || i == own) continue;
+        const double z = w0 * part[i][0].z() + w1 * part[i][1].z() + w2 * part[i][2].z();
+        const double turns = w0 + w1 + w2;
+        if (z / turns > from.z()) sum += turns > 0.0 ? 1 : -1;
+    }
+    return sum;
+}
+
+/// True unless one of many points of a closed part has a winding number beside it other than 0
+/// outside and 1 within: the part crosses itself, or some of it is inside out.
+bool is_plain(std::span<const Eigen::Vector3f> vertices, const MeshPart& part, double outward) {
+    constexpr int points = 64;
+    // A rotation, so that few models have a face along its axes.
+    const Eigen::Matrix3d axes = (Eigen::Matrix3d() << 2, 3, 6, 3, -6, 2, 6, 2, -3).finished() / 7;
+    std::vector<std::array<Eigen::Vector3d, 3>> placed;
+    placed.reserve(part.triangles.size());
+    for (const TriangleCorners& c : part.triangles) {
+        const auto at = [&](int k) -> Eigen::Vector3d {
+            return axes * vertices[c[k]].cast<double>();
+        };
+        placed.push_back({at(0), at(1), at(2)});
+    }
+    double area = 0.0;
+    int k = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const auto& [a, b, c] = placed[i];
+        const Eigen::Vector3d cross = (b - a).cross(c - a);
+        for (area += cross.norm(); k < points && area > (k + 0.5) / points * part.area; ++k) {
+            const double u = 0.1 + 0.5 * (0.618 * k - std::floor(0.618 * k));
+            const Eigen::Vector3d point = a + u * (b - a) + 0.6 * (1.0 - u) * (c - a);
+            const int expected = outward * cross.z() < 0.0 ? 1 : 0;
+            if (outward * times_left(placed, i, point) != expected) return false;
+        }
+    }
+    return true;
+}
+
+Solid solid_of(std::span<const Eigen::Vector3f> vertices, const MeshPart& part) {
+    constexpr double least = 1e-5;  // a sphere has 0.2
+    if (part.edges != 0 || !(std::fabs(part.volume) > least * part.area * std::sqrt(part.area)))
+        return {};
+    const float outward = part.volume > 0.0 ? 1.0F : -1.0F;
+    return is_plain(vertices, part, outward) ? Solid{part.box, outward} : Solid{};
+}
 
 }  // namespace
 
@@ -104,27 +158,34 @@ Solids find_solids(std::span<const Eigen::Vector3f> vertices,
         parts.join(first[c[0]], first[c[1]]);
         parts.join(first[c[0]], first[c[2]]);
     }
-    std::vector<std::uint32_t> number(vertices.size());  // of a part's vertex, from 1
-    std::vector<PartSums> sums(1);
+    std::vector<std::uint32_t> number(vertices.size());  // its part, from 1
+    std::vector<MeshPart> sums(1);
     Solids out;
     for (const TriangleCorners& c : triangles) {
-        const std::uint32_t part = parts.of(first[c[0]]);
-        if (number[part] == 0) {
-            number[part] = static_cast<std::uint32_t>(sums.size());
+        const std::uint32_t root = parts.of(first[c[0]]);
+        if (number[root] == 0) {
+            number[root] = static_cast<std::uint32_t>(sums.size());
             sums.emplace_back();
         }
-        out.of_triangles.push_back(number[part]);
-        PartSums& sum = sums[number[part]];
+        out.of_triangles.push_back(number[root]);
+        MeshPart& part = sums[number[root]];
+        part.triangles.push_back(c);
         const Eigen::Vector3d cross = cross_of(vertices, c);
-        sum.volume += cross.dot((vertices[c[0]] - vertices[part]).cast<double>());
-        sum.area += cross.norm();
+        part.volume += cross.dot((vertices[c[0]] - vertices[root]).cast<double>());
+        part.area += cross.norm();
         for (std::size_t k = 0; k < 3; ++k) {
-            sum.box.extend(vertices[c[k]]);
-            sum.edges += hash_of_edge(first[c[k]], first[c[(k + 1) % 3]]);
+            part.box.extend(vertices[c[k]]);
+            part.edges += hash_of_edge(first[c[k]], first[c[(k + 1) % 3]]);
         }
     }
-    for (std::size_t k = 1; k < sums.size(); ++k)
-        out.items.push_back(sums[k].solid());
+    std::vector<std::uint32_t> item(1);
+    for (std::size_t k = 1; k < sums.size(); ++k) {
+        const Solid solid = solid_of(vertices, sums[k]);
+        item.push_back(solid.outward == 0.0F ? 0 : static_cast<std::uint32_t>(out.items.size()));
+        if (item.back() != 0) out.items.push_back(solid);
+    }
+    for (std::uint32_t& index : out.of_triangles)
+        index = item[index];
     return out;
 }
 

@@ -58,7 +58,7 @@ struct Solids {
 };
 
 /// Parts whose triangles share vertices are solids if each edge occurs as often from its one end as
-/// from its other, and the part has a volume.
+/// from its other, and the part has a volume and, at some points, does not cross itself.
 Solids find_solids(std::span<const Eigen::Vector3f> vertices,
                    std::span<const TriangleCorners> triangles);
 

@@ -17,7 +17,7 @@ namespace sonarsim {
 
 namespace {
 
-/// What is drawn for a target, the second word of the counter; the first is the target.
+/// Draws for a target: the second word of the counter; the first is the target.
 enum class ParticleDraw : std::uint32_t { size, x, y, z, count };
 
 /// The draws of one group.

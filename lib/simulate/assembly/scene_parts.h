@@ -32,7 +32,7 @@ struct SceneParts {
 ///
 /// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it.
 ///
-/// With `places_only` a bed without an end is made below objects alone and is no file.
+/// With `places_only` a bed without an end is made below objects alone, and not a file.
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models, bool places_only = false);
 

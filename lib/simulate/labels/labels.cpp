@@ -191,7 +191,8 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
     HiddenSurface hidden =
         find_hidden_surface(traced, echoes, view, objects, engine, directions,
                             request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
-    std::vector<HiddenPiece> by_objects = hidden.pieces;
+    std::vector<HiddenPiece> by_objects;
+    if (request.annotations) by_objects = hidden.pieces;
     std::erase_if(by_objects, [&](const HiddenPiece& piece) {
         return piece.behind_background || objects.is_background(piece.object);
     });

@@ -140,11 +140,8 @@ void cut_to_normal_incidence(std::span<const Sample> samples, std::span<const st
         for (; i < ends[k]; ++i) {
             const float near_m = echoes.range_m[i] - echoes.half_m[i];
             const float far_m = std::min(echoes.range_m[i] + echoes.half_m[i], last_m);
-            if (!(far_m > near_m)) {
-                echoes.weight[i] = 0.0F;
-                continue;
-            }
-            const float half_m = 0.5F * (far_m - near_m);
+            if (near_m + 2.0F * echoes.half_m[i] <= last_m) continue;
+            const float half_m = std::max(0.5F * (far_m - near_m), 0.0F);
             echoes.weight[i] *= half_m / echoes.half_m[i];
             echoes.range_m[i] = near_m + half_m;
             echoes.half_m[i] = half_m;

@@ -100,6 +100,7 @@ ClusterMesh make_clusters(const MeshView& from) {
 /// Appends ClustersInView::own_outward of a mesh. Within the margin of a box counts as inside.
 void add_outward(const ClusterMesh& mesh, const Eigen::Vector3f& sensor, float margin_m,
                  std::vector<float>& out) {
+    out.reserve(out.size() + mesh.solids.size());
     for (const Solid& solid : mesh.solids)
         out.push_back(solid.box.exteriorDistance(sensor) > margin_m ? solid.outward : 0.0F);
 }

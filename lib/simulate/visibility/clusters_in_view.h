@@ -48,7 +48,7 @@ struct ClustersInView {
     const ClusterMesh& own;                   ///< the scene's own surface,
     std::vector<std::uint32_t> own_clusters;  ///< and which of its clusters
     ClusterMesh placed;                       ///< bodies and copies
-    /// By solid of `own` and of `placed`: Solid::outward, but 0 where the sensor is in its box.
+    /// Solid::outward of the solids of `own` and `placed`; 0 where the sensor is in the box.
     std::vector<float> own_outward, placed_outward;
 
     /// Facets of `placed` follow the own ones.

@@ -127,8 +127,7 @@ TEST_CASE("cell_m makes a heightmap's cells shorter and keeps its heights and ho
     const MapPlace place{.west_m = 0, .north_m = 12, .cell_m = 2};
     const MapFile map(heights, 6, place, {.cell_m = 0.67});
     const Surface surface = map.surface();
-    // Three parts to a pixel; of the last pixel's cell the other diagonal leaves one small
-    // triangle.
+    // Three parts to a pixel; in the last cell the other diagonal leaves one small triangle.
     CHECK(surface.triangles.size() == 2 * (15 * 15 - 9) + 1);
     CHECK(has_vertex(surface, {5, 7, 3}));
     CHECK(upward_area(surface) == approx(96.0 + 2.0 / 9.0).epsilon(1e-6));

@@ -66,8 +66,7 @@ TEST_CASE("half floats have the value of their sign, exponent and ten bits") {
     const TemporaryFolder folder;
     RawTiff file{.width = 62, .height = 1024, .bits = 16, .sample_format = 3, .pixels = ""};
     std::vector<float> values;
-    // All finite halves: (1 + m / 1024) 2^(e - 15), and m 2^-24 for e = 0; e = 31 is infinite or
-    // NaN.
+    // All finite halves: (1 + m / 1024) 2^(e - 15), and m 2^-24 for e = 0; not for e = 31.
     for (int pattern = 0; pattern < 1 << 16; ++pattern) {
         const int exponent = pattern >> 10 & 31;
         const int m = pattern & 1023;

@@ -41,8 +41,7 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
     const auto even = [&](double at) { return (at + half) / (2.0 * half); };
     CHECK(ks_p_value(x, even) > 1e-4);
     CHECK(ks_p_value(y, even) > 1e-4);
-    // Counts of squares of 5 m vary as Poisson's do: the index of dispersion of n squares has the
-    // deviation sqrt(2 / n).
+    // Counts of squares of 5 m are Poisson's: the index of n squares has the deviation sqrt(2 / n).
     Eigen::Array<double, 121, 1> counts = Eigen::Array<double, 121, 1>::Zero();
     for (std::size_t i = 0; i < x.size(); ++i) {
         const int column = static_cast<int>((x[i] + 27.5) / 5.0);

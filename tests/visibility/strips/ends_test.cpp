@@ -52,8 +52,7 @@ TEST_CASE("strips: a corner that enters the view within a beam is seen") {
 }
 
 TEST_CASE("strips: a corner of surface and the border of the view is seen") {
-    // The farthest point in view is where the leaning edge of a leaf crosses the upper border
-    // within a beam.
+    // The farthest point in view: a leaf's leaning edge crosses the upper border within a beam.
     const View view = fan_view(60.0, 2.0);
     Draws draws(33);
     for (int k = 0; k < 40; ++k) {

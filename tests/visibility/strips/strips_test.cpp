@@ -216,9 +216,26 @@ TEST_CASE("strips: drawn solids look the same as open meshes, whichever way thei
         for (int j = 0; j < view.beams; ++j) {
             CAPTURE_ALL(trial, j);
             CHECK(filled_sr(near_sides, j, j + 1) ==
-                  doctest::Approx(filled_sr(both_sides, j, j + 1)).epsilon(1e-4));
+                  approx(filled_sr(both_sides, j, j + 1)).epsilon(1e-4));
         }
     }
+}
+
+TEST_CASE(
+    "solids: bodies that share a corner and are turned differently are none, nor what crosses "
+    "itself") {
+    Scene two = box_scene({0, 0, 0}, {1, 1, 1}, 0.5F);
+    add_box(two, {1, 1, 1}, {1.5F, 1.6F, 1.7F}, 0);
+    CHECK(find_solids(two.vertices, two.triangles).items.size() == 2);
+    for (auto triangle = two.triangles.begin() + 12; triangle != two.triangles.end(); ++triangle)
+        std::swap((*triangle)[0], (*triangle)[1]);
+    CHECK(find_solids(two.vertices, two.triangles).items.size() == 1);
+    // A part of the top lies below the bottom.
+    Scene block = box_scene({0, 0, 0}, {1, 1, 1}, 0.5F);
+    for (Eigen::Vector3f& vertex : block.vertices) {
+        if (vertex == Eigen::Vector3f(1, 1, 1)) vertex.z() = -0.6F;
+    }
+    CHECK(find_solids(block.vertices, block.triangles).items.size() == 1);
 }
 
 TEST_CASE("strips: footprints tile the ground, and their areas are the surface's") {

@@ -17,7 +17,7 @@ struct SonarsimImageHead {
     /// 1: `grid` has the place of the pixels by the tags of a GeoTIFF: x and y of the centre of the
     /// first pixel, and the steps from one column and from one row to the next.
     std::uint32_t has_grid;
-    std::uint32_t unit;  ///< of `grid`; 0: metres, 1: degrees, 2: the file does not say
+    std::uint32_t unit;  ///< 0: `grid` is in metres, 1: degrees, 2: the file does not say
     std::uint32_t epsg;  ///< code of the projected reference system; 0: none
     double grid[4];
     char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none

@@ -37,7 +37,7 @@ struct Image {
     /// Rows from the top, in them pixels from the left, in them channels. NaN: no value.
     std::vector<float> values;
     std::optional<PixelGrid> grid;  ///< the place on its map, as the file has it
-    enum class Unit { metre, degree, unnamed } unit = Unit::metre;  ///< that of `grid`
+    enum class Unit { metre, degree, unnamed } unit = Unit::metre;  ///< for `grid`
     bool has_no_data = false;  ///< the file names the value of pixels without one
 
     /// The channels without that of transparency.

@@ -21,7 +21,7 @@ std::pair<std::int64_t, std::int64_t> cell_at(const Eigen::Vector2d& point, doub
     return {static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y())};
 }
 
-/// What is drawn for an object: the second word of the counter. The first is the attempt's number.
+/// Draws for an object: the second word of the counter. The first is the attempt's number.
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y, share };
 
 /// The draws of one object of one rule.

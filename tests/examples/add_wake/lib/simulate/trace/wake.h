@@ -6,8 +6,7 @@
 
 namespace sonarsim {
 
-/// A cloud of bubbles behind a ship. Sound loses power on its way through it and comes back from
-/// it.
+/// A cloud of bubbles behind a ship. Sound loses power in it and comes back from it.
 struct WakeConfig {
     Eigen::AlignedBox3d box_m;      ///< world
     float absorption_per_m = 0.0F;  ///< one way: power falls as e^-(absorption times length)
