@@ -197,8 +197,7 @@ Mission checked_variant(const Mission& variant) {
     return checked;
 }
 
-/// Checks a mission or every variant, since scenes differ and each may fail for its own reasons.
-/// Casts rays only in the first.
+/// Checks a mission or every variant, each of which may fail. Casts rays only in the first.
 Report check(const Mission& mission, const Variants& variants, const ValidateArguments& arguments) {
     Report report;
     std::vector<PingCost> costs;

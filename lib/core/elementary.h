@@ -9,8 +9,7 @@
 
 // Elementary functions with the same result on every processor. The C library's functions choose a
 // variant by the processor, and the variants differ in the last bit. Functions for inner loops are
-// branch-free, so that the loops vectorise. Only sqrt, floor and fma of <cmath> are used: IEEE 754
-// fixes their results.
+// branch-free, so that the loops vectorise. IEEE 754 fixes sqrt, floor and fma of <cmath>.
 
 namespace sonarsim {
 
@@ -84,8 +83,7 @@ inline double arctan2(double y, double x) {
     return std::signbit(y) ? -angle : angle;
 }
 
-/// arctan2 in float, absolute error below 2e-6. The argument is halved once, so that the Taylor
-/// series meets |t| <= tan(pi/8).
+/// arctan2 in float to 2e-6. The argument is halved once: the series meets |t| <= tan(pi/8).
 inline float arctan2_float(float y, float x) {
     const float ax = std::fabs(x);
     const float ay = std::fabs(y);
@@ -160,8 +158,7 @@ inline double power(double x, double y) {
     return exponential(y * logarithm(x));
 }
 
-/// Sine and cosine of an angle within [-pi, pi], absolute error below 1e-6. Taylor series of the
-/// half angle and one doubling.
+/// Sine and cosine of an angle within [-pi, pi] to 1e-6: Taylor series of the half angle.
 inline SinCosFloat sincos_small(float x) {
     const float y = 0.5F * x;
     const float t = y * y;

@@ -51,8 +51,7 @@ class ErrorList {
 
     /// Number of errors, including those beyond the first `max_kept`.
     std::size_t count() const { return count_; }
-    /// Throws one InputError with a line for each error, in the order in which they were found.
-    /// Does nothing if there is none.
+    /// Throws one InputError with a line for each error, in their order. None: does nothing.
     void raise() const;
 
   private:

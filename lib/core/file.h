@@ -121,9 +121,8 @@ void require_no_link(const std::filesystem::path& path, const std::string& what)
 /// is a link or not a regular file, or cannot be read.
 std::string read_bytes(const std::filesystem::path& path, std::size_t offset, std::size_t size);
 
-/// Copies a file: a reader of `to` sees the old file or the whole new one, and a link there is
-/// replaced. InputError as read_bytes() for `from`; std::system_error, which names `to`, when the
-/// disk refuses.
+/// Copies a file: a reader sees the old file or the whole new one; a link is replaced. InputError
+/// as read_bytes() for `from`; std::system_error, which names `to`, when the disk refuses.
 void copy_regular_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// An empty folder for temporary files, which goes with this object. std::system_error by the disk.

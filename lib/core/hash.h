@@ -6,8 +6,7 @@
 
 namespace sonarsim {
 
-/// The 128-bit FNV-1a hash, as 32 hexadecimal digits. It is not cryptographic: inputs with the same
-/// hash can be made on purpose.
+/// The 128-bit FNV-1a hash, as 32 hexadecimal digits. It is not cryptographic.
 std::string fnv1a_128(std::string_view bytes);
 
 /// The SHA-256 (FIPS 180-4) of bytes in memory: 64 hexadecimal digits, as sha256sum prints them.

@@ -25,8 +25,7 @@ double total_memory(const std::filesystem::path& root) {
     return no_limit;
 }
 
-/// The least limit of the control group (version 2) of this process and of the groups around it. A
-/// group without a limit has "max".
+/// The least limit of this process's control groups (version 2). "max" is no limit.
 double group_limit(const std::filesystem::path& root) {
     std::ifstream groups(root / "proc/self/cgroup");
     double min_bytes = no_limit;

@@ -61,13 +61,11 @@ inline std::string without_copy_number(const std::string& name) {
     return digits ? name.substr(0, dot) : name;
 }
 
-/// The format of a file by its first bytes, as "a .glb mesh", for messages about a file in the
-/// wrong place; "" if it is unknown.
+/// The format of a file by its first bytes, as "a .glb mesh", for messages; "": unknown.
 std::string_view known_format(std::string_view bytes);
 
 /// True if arrays and objects of a JSON text are nested more than `levels` deep. Recursive
-/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. The text need
-/// not be valid JSON.
+/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. Any text.
 bool is_nested_deeper(std::string_view text, int levels);
 
 /// Two hexadecimal digits for each byte.

@@ -105,8 +105,7 @@ struct ReceiverConfig {
     double loss_db = 10.0;            ///< the mean loss of these
 };
 
-/// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a lower level must be relative to the
-/// source level. -300 means none.
+/// Echoes and noise of the sea lie above 0 dB re 1 uPa: lower levels are relative. -300: none.
 constexpr bool is_relative_level(double level_db) {
     return level_db < 0.0 && level_db > -300.0;
 }
@@ -116,8 +115,7 @@ constexpr bool has_relative_level(const ReceiverConfig& receiver) {
            is_relative_level(receiver.full_scale_db.value_or(0.0));
 }
 
-/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is not a source level but the
-/// reference of the other levels.
+/// 120 dB re 1 uPa at 1 m are 8 microwatts. A smaller number is the reference of other levels.
 constexpr bool is_relative_source(double source_level_db) {
     return source_level_db < 120.0;
 }

@@ -22,8 +22,7 @@ std::string shipped_hint(std::string name, const std::string& kind = sensor_pres
 /// The file of a path from configs/ that came with the program; empty: none.
 std::filesystem::path shipped_file(const std::filesystem::path& name);
 
-/// The file that the path of a preset means: one below `base_folder`, else one that came with the
-/// program. Empty if there is none.
+/// The file that a preset's path means: below `base_folder`, or the program's. Empty: none.
 std::filesystem::path preset_file(const std::filesystem::path& name,
                                   const std::filesystem::path& base_folder);
 
@@ -33,8 +32,7 @@ void fill_in_rules(YamlNode& mission, const std::filesystem::path& base_folder);
 
 /// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
 /// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
-/// paths start at `base_folder`. InputError for a file that cannot be read, is not a section or
-/// names a preset itself.
+/// paths start at `base_folder`. InputError for an unreadable file, no section or a preset in it.
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder);
 
 }  // namespace sonarsim

@@ -71,8 +71,7 @@ void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, E
     }
 }
 
-/// The kinds of clutter by default: none that a rule of `scatter` labels, as a thing would be an
-/// object here and background there.
+/// The kinds of clutter by default: none that a rule of `scatter` labels as objects.
 std::vector<std::string> unlabelled_kinds(const YamlNode* scatter) {
     std::vector<std::string> kinds(std::begin(clutter_kinds), std::end(clutter_kinds));
     if (scatter == nullptr) return kinds;

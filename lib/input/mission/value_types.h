@@ -20,8 +20,7 @@
 #include "input/mission/variation_keys.h"
 
 // The types of the keys that have one value. A type reads a value from YAML, writes it as YAML, and
-// is described in the tables of keys. `key` is a name in messages: read() throws InputError with
-// the place of a wrong value.
+// is described in the tables of keys. `key`: for messages. read() throws InputError with the place.
 
 namespace sonarsim {
 

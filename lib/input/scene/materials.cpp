@@ -192,8 +192,7 @@ double facet_slope(const Material& material) {
 }
 
 std::vector<std::string> unit_warnings(std::span<const Material> materials) {
-    // Gases are lighter than 10 kg/m^3 and their speed of sound is below 1,300 m/s; liquids and
-    // solids are heavier than 30 kg/m^3.
+    // Gases: below 10 kg/m^3 and 1,300 m/s. Liquids and solids are heavier than 30 kg/m^3.
     constexpr double lightest_solid = 30.0;
     constexpr double fast_for_a_gas = 1300.0;
     constexpr double slowest = 20.0;

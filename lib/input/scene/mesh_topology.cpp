@@ -31,7 +31,7 @@ struct MeshPart {
     double area = 0.0;    ///< times 2, m^2
 };
 
-/// How often lines along z from a point of triangle `own` leave the part more than they enter it.
+/// Exits less entries of a line along z that begins in triangle `own` of the part.
 int times_left(std::span<const std::array<Eigen::Vector3d, 3>> part, std::size_t own,
                const Eigen::Vector3d& from) {
     int sum = 0;

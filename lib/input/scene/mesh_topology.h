@@ -44,8 +44,7 @@ struct MeshSide {
 std::vector<MeshSide> sides_by_edge(std::span<const TriangleCorners> triangles,
                                     std::size_t vertices);
 
-/// A closed part of a mesh. From outside of its box a line of sight meets a side of it that faces
-/// the eye before any that does not.
+/// A closed part of a mesh: from outside its box, sides that face the eye hide all others.
 struct Solid {
     Eigen::AlignedBox3f box;
     float outward = 0.0F;  ///< 1: its normals point outwards, -1: inwards, 0: no solid

@@ -22,8 +22,7 @@ struct HeightmapRule {
     double pixel_m = 0.0;
     /// The longest side of the surface's cells, cubic between pixels. 0: those of the pixels.
     double cell_m = 0.0;
-    /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
-    /// If it lies outside the map, all is read.
+    /// The part that is read, on the map: least x and y, largest x and y. Outside the map: all.
     std::array<double, 4> window{-unlimited, -unlimited, unlimited, unlimited};
 
     bool operator==(const HeightmapRule&) const = default;

@@ -44,8 +44,7 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
-/// The power reflection coefficient at normal incidence, ((z - z_w) / (z + z_w))^2 with the
-/// impedance z = rho c, Eq. 4-5.
+/// The power reflection coefficient ((z - z_w) / (z + z_w))^2 with z = rho c, Eq. 4-5.
 inline double power_reflection(double density_kg_m3, double sound_speed_m_s, const Water& water) {
     const double z = density_kg_m3 * sound_speed_m_s;
     const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
@@ -75,8 +74,7 @@ struct SharedMesh {
     std::vector<std::uint32_t> triangle_material;         ///< index into Scene::materials
 };
 
-/// A part of the scene that moves rigidly: a mesh of its own, in the body's frame. Each ping has a
-/// pose of that frame in the world.
+/// A part of the scene that moves rigidly: a mesh in the body's frame, with a pose by ping.
 struct Body : SharedMesh {
     std::uint32_t instance = 0;  ///< index into Scene::instances
 };
@@ -106,7 +104,7 @@ struct Scene {
     std::vector<Material> materials;            ///< used by its surfaces and maps
     std::vector<std::string> instances;         ///< node names
     std::vector<std::string> instance_classes;  ///< extras.sonar.class of each instance; "": none
-    std::vector<std::uint8_t> is_bottom;  ///< 1: all of this instance is the bottom
+    std::vector<std::uint8_t> is_bottom;        ///< 1: all of this instance is the bottom
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
     Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
     /// Largest rounding error of a vertex, m. Floats far from the origin of their own file or node

@@ -45,13 +45,11 @@ struct SensorSummary {
     }
 };
 
-/// Images of a run that are black, nearly black or white. `sensors` are by Mission::sensors; one
-/// without pings has no warnings.
+/// Images of a run that are black, nearly black or white, by Mission::sensors.
 std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SensorSummary> sensors);
 
-/// Objects of the mission, or with a class, that no sonar sees: neither in the survey nor in other
-/// pings that have them in view.
+/// Objects of the mission, or with a class, that no sonar sees, in the survey or other pings.
 std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);

@@ -21,8 +21,7 @@ struct Brightness {
 /// echo model's rule (EchoModelInfo::white), or without one the 99 % quantile of the bins with
 /// surface of a few pings spread over the trajectory, at most ten times their 90 % quantile; 1 if
 /// these pings have no echo. `auto` is rounded up to two digits. It does not depend on the shard,
-/// the number of threads or the engine, since the probes always use rays. `motions` are those of
-/// the scene's bodies.
+/// the number of threads or the engine, since the probes always use rays. `motions`: of bodies.
 Brightness find_full_scales(const Mission& mission, const Scene& scene,
                             const Trajectory& trajectory, std::span<const Trajectory> motions,
                             std::span<const Sonar> sonars, SharedTrees& trees);

@@ -18,8 +18,7 @@ namespace sonarsim {
 Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
                                     const Trajectory& vehicle, double faster);
 
-/// The heightmap or the seabed of a mission, where a ping may receive it or an object may stand on
-/// it; none if the scene has neither.
+/// A mission's heightmap or seabed, where a ping may receive it or an object stand; or none.
 std::optional<PlacedFile> ground_of(const Mission& mission, const Trajectory& vehicle,
                                     std::span<const Sonar> sonars, SceneStore& models);
 

@@ -41,8 +41,7 @@ std::vector<std::string> names_in(const std::string& text) {
     return names;
 }
 
-/// The objects that are looked at: indices into `boxes`; none if their classes are known, but no
-/// object of them is in the scene.
+/// The objects to look at: indices into `boxes`; none if no object of their classes is there.
 std::vector<std::uint32_t> looked_at(const LookAtTrajectoryConfig& config,
                                      const SceneObjects& objects,
                                      const std::vector<Eigen::AlignedBox3d>& boxes) {
@@ -88,8 +87,7 @@ double drawn_in(const std::array<double, 2>& limits, double share) {
     return limits[0] + share * (limits[1] - limits[0]);
 }
 
-/// The attitude of a sensor that has a direction of the world, azimuth and depression, at an
-/// azimuth and elevation of its own.
+/// The attitude of a sensor with an azimuth and depression of the world at its own direction.
 Eigen::Quaterniond aimed(double azimuth_rad, double depression_rad, double own_azimuth_rad,
                          double own_elevation_rad) {
     const SinCos down = sincos(depression_rad);

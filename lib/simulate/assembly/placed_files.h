@@ -21,8 +21,7 @@ PlacedFile file_of(const HeightmapConfig& map);
 /// The materials whose parts of the nodes are instances of their own, by the rules for classes.
 std::vector<std::string> parts_of(const Mission& mission, const PlacedFile& file);
 
-/// The unit and axis of the .obj, .stl and .ply files of a scene, which do not say them: "tyre.stl:
-/// metres, y up (no `up` given)".
+/// Unit and axis of .obj, .stl and .ply files of a scene: "tyre.stl: metres, y up (no `up` given)".
 std::vector<std::string> readings_of(const SceneConfig& scene);
 
 /// "'tyre'", or "'tyre.stl'" for an object without a name.

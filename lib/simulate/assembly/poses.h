@@ -20,8 +20,7 @@ namespace sonarsim {
 /// The poses of moving bodies at a time of their trajectories.
 std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
 
-/// The engine for a ping at a time of the trajectory, with the scene's bodies at their poses then.
-/// It must not outlive `engine`.
+/// The engine for a ping at a time, with the scene's bodies then. It must not outlive `engine`.
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
                                                   std::span<const Trajectory> motions, double t_s);
 

@@ -52,8 +52,7 @@ double form_function(double x) {
 constexpr double channel_sine = 0.018;
 
 // Directions in a cone lie on rings, those of other views in rows of elevation. They are at most a
-// quarter of a beam's width apart, for levels within 0.05 dB; where rings are too many, as of half
-// a degree in 60, within 0.3 dB.
+// quarter of a beam's width apart, for levels within 0.05 dB; with too many rings within 0.3 dB.
 constexpr int min_rings = 128;
 constexpr int max_rings = 1 << 14;
 constexpr int ring_turns = 8;

@@ -36,8 +36,7 @@ struct LabelRequest {
 };
 
 /// The labels of the bins of one ping, [beams, range_bins], beam after beam. Ids are 1 + the index
-/// into SceneObjects::objects, its classes or Scene::materials; 0 is none. Labels that were not
-/// requested are empty.
+/// into SceneObjects::objects, its classes or Scene::materials; 0 is none. Others are empty.
 struct PingLabels {
     int range_bins = 0;
     int beams = 0;

@@ -38,8 +38,7 @@ float squared(float x, float y, float z) {
 
 constexpr float no_limit = std::numeric_limits<float>::max();
 
-/// The range of the farthest corner, since a norm is convex. The corners of a wedge lie
-/// +-u +- (1 +- wedge) v from its middle.
+/// The range of the farthest corner. A wedge has corners +-u +- (1 +- wedge) v from its middle.
 float last_range(const Sample& sample) {
     if (sample.wedge == 0.0F) return no_limit;
     float last_m = 0.0F;

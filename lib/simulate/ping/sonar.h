@@ -42,8 +42,7 @@ struct Sonar {
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
 
-/// Finds the column of the image, from 0 to the number of columns, in which an azimuth of the fan
-/// lies. The sonar must outlive it.
+/// Finds the column of the image, from 0 on, of an azimuth. The sonar must outlive it.
 class ColumnFinder {
   public:
     explicit ColumnFinder(const Sonar& sonar);

@@ -23,8 +23,7 @@ struct GroundBounds {
 };
 
 /// Weighted means on a north-up grid, the heights of soundings or the levels of side-scans: row 0
-/// has the greatest y, column 0 the least x. Cells begin at multiples of their size, so that grids
-/// of one size fit together.
+/// has the greatest y, column 0 the least x. Cells begin at multiples of their size.
 struct GroundGrid {
     double cell_m = 0.0;
     double west_m = 0.0;        ///< world x of the left edge

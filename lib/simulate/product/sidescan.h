@@ -31,8 +31,7 @@ int waterfall_columns(const SonarConfig& config);
 /// The bin of Ping::intensity, [range bins, 2], in each column; -1 where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
-/// The slant range from which on a beam receives the visible bottom, m; nothing beyond range_max.
-/// `is_bottom`: that of the scene.
+/// The slant range from which on a beam receives the visible bottom, m; or beyond range_max.
 std::optional<double> first_return_m(const Samples& samples,
                                      std::span<const std::uint8_t> is_bottom, const View& view,
                                      int beam);

@@ -44,8 +44,7 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
 /// surface of a fan is then sorted into beams again.
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples);
 
-/// The true place, in the world, of an apparent place in the sonar's frame. `profile` bends the
-/// sound; null: paths are straight.
+/// The true place, in the world, of an apparent place in the sonar's frame. No profile: straight.
 inline Eigen::Vector3d true_place(const SoundProfile* profile, const Pose& T_world_sensor,
                                   const Eigen::Vector3d& measured) {
     if (!profile) return T_world_sensor.rotation * measured + T_world_sensor.translation;

@@ -31,8 +31,7 @@ struct BoxArrays {
 };
 
 /// The boxes of echoes. Echoes wholly outside the range add 0 to the first bin; returns their
-/// number. No branches, so that the loop vectorises; inlined, so that compilers see that `boxes`
-/// does not alias the echoes.
+/// number. No branches, so that the loop vectorises; inlined, so that `boxes` aliases no echoes.
 [[gnu::always_inline]] inline int find_boxes(const BoxArrays& echoes, const RangeBins& bins,
                                              Boxes& boxes) {
     const float per_bin = 1.0F / bins.bin_m;

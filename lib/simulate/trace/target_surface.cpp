@@ -133,9 +133,8 @@ class TargetSampler {
         }
     }
 
-    /// Halves a part of the triangle until it is a piece: small and, where a highlight may lie,
-    /// with a normal that turns by about a slope. `may_glint`: a highlight may lie on the whole
-    /// that it is a part of.
+    /// Halves a part of the triangle until it is small and, where a highlight may lie, its normal
+    /// turns by about a slope. `may_glint`: a highlight may lie on the whole that it is a part of.
     void halve(const Corners& corners, int halvings, bool may_glint) {
         const bool glints = may_glint && min_off(corners) <= highlight_slopes * slope_;
         const float per_part = 1.0F / part_m_;

@@ -71,8 +71,7 @@ auto by_groups(const TracedPing& traced, Make make, TakeBeam take_beam, TakeAll 
 /// Calls use(sample) for the surface that a ping receives, each where its group receives it.
 void for_each_received(const TracedPing& traced, const std::function<void(const Sample&)>& use);
 
-/// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
-/// steps 1 and 2 of docs/model.md.
+/// Finds the visible surface and, if on, the multipath: steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
                       const Terms& terms = {}, const PingMotion& motion = {});

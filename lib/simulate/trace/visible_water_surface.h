@@ -50,8 +50,7 @@ inline std::optional<WaterMirror> mirror_of(const std::optional<WaterSurface>& s
 
 /// The water's surface that scatters, as a sonar below it sees it: in its view, and for a side-scan
 /// sonar all around the track, since its beam patterns reach upwards as well. The material of the
-/// samples is the one after those of the scene; they have no instance. One ray decides on the
-/// visibility of each.
+/// samples is the one after those of the scene; they have no instance. One ray decides on each.
 class ScatteringSurface final : public SampleSource {
   public:
     void add(const TraceContext& context, const PingMotion& motion, std::uint32_t pose,

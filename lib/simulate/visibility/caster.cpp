@@ -34,8 +34,7 @@ std::span<const TriangleCorners> first_triangles(const Scene& scene) {
     return std::span(scene.triangles).first(scene.first_file_triangles);
 }
 
-/// True if the first file has a tree of its own. Bodies and copies have instances of one tree of
-/// all surface at rest beside them.
+/// True if the first file has a tree of its own. Bodies and copies have one of all surface at rest.
 bool has_parts(const Scene& scene) {
     return scene.first_file_triangles > 0 && scene.first_file_triangles < scene.triangles.size() &&
            scene.bodies.empty() && scene.copies.empty();

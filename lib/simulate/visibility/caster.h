@@ -84,8 +84,7 @@ class Caster {
     std::uint32_t still_ = 0;  ///< number of the scene's own triangles
 };
 
-/// Makes casters over scenes whose first file is often the same, as that of a mission's variants
-/// is. Its tree is kept. Thread-safe.
+/// Makes casters over scenes that share their first file, whose tree is kept. Thread-safe.
 class SharedTrees {
   public:
     /// As Caster(scene), and faster once the last caster and its copies are gone.

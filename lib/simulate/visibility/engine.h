@@ -61,8 +61,7 @@ struct Samples {
     /// beams, and the other kinds of samples, one after the other.
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
-    /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
-    /// rounding, or at zero distance.
+    /// Number of patches in view that were dropped: edge-on to within rounding, or at no distance.
     std::uint64_t dropped = 0;
 
     std::span<const Sample> beam(int j) const {

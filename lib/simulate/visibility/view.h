@@ -19,8 +19,7 @@ enum class ViewShape {
 // Beams of a fan that are wider are cut into columns of strips; fitted to measured errors.
 constexpr double widest_column_rad = 0.0096;
 
-/// Beams on either side of a fan's view in which surface is traced as well, since the cones of a
-/// line array's beams reach there.
+/// Beams beside a fan's view in which surface is traced as well: a line array's cones reach there.
 struct GuardBeams {
     int count = 0;        ///< on either side
     double beam_rad = 0;  ///< width of each; 0: as wide as the beams of the view
@@ -31,8 +30,7 @@ struct GuardBeams {
     bool operator==(const GuardBeams&) const = default;
 };
 
-/// The volume that a sonar views, in the sensor frame: x along the boresight, azimuth = atan2(y,
-/// x), elevation = asin(z / r).
+/// The volume in view: x along the boresight, azimuth = atan2(y, x), elevation = asin(z / r).
 struct View {
     /// Full angle, centred on the boresight; for a cone its opening angle.
     double azimuth_rad = 0.0;
@@ -67,8 +65,7 @@ inline float beam_in_turn(float beam, float beams) {
 /// are half-open in azimuth and elevation.
 int beam_of(const View& view, const Eigen::Vector3f& point);
 
-/// `beam_of` for many points: in float, and with the fraction of the beam. The two may differ for a
-/// point within 2e-6 rad of an edge.
+/// `beam_of` for many points: in float, with the fraction. It may differ within 2e-6 rad of edges.
 class BeamLocator {
   public:
     explicit BeamLocator(const View& view);

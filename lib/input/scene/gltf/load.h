@@ -55,8 +55,7 @@ inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::m
 /// ... Its class is `extras.sonar.class` of the node or of the nearest ancestor that has one, else
 /// of the glTF materials. Animated nodes and morph targets stay at rest. `origin` is the centre of
 /// the bounding box rounded to a multiple of g, the smallest power of ten that holds the scene's
-/// largest extent (at least 1 m), so that a scene moved by multiples of g keeps its local
-/// coordinates bit by bit.
+/// largest extent (at least 1 m), so that a scene moved by multiples of g keeps its coordinates.
 ///
 /// Materials without a name or without a row in `table` become `material_default`, unless that is
 /// empty. Named files that do not move and are placed more than once become shared meshes with

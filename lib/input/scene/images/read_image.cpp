@@ -154,8 +154,7 @@ void mark_unknown(const SonarsimImageHead& head, const Location& where, Image& i
     }
 }
 
-/// The pixels from `low` to `high`, with a margin, of `count` that begin at `start`; all of them if
-/// fewer than two would remain.
+/// The pixels from `low` to `high`, with a margin, of `count` from `start` on; or all, not one.
 std::array<int, 2> pixels_between(double low, double high, double start, double step, int count) {
     constexpr double margin = 2.0;
     const double a = (low - start) / step;

@@ -140,8 +140,7 @@ class GroundMaps {
     /// The material and strength at world x and y of an instance whose own material is `own`.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
-    /// The material and strength of a footprint, if a quick test finds them uniform. Without
-    /// `with_strength` the strength is 1.
+    /// The material and strength (1 without `with_strength`) of a footprint, if uniform.
     std::optional<MappedPoint> alike_over(std::uint32_t instance, std::uint32_t own,
                                           const GroundFootprint& footprint,
                                           bool with_strength = true) const;

@@ -171,8 +171,7 @@ std::string_view whole_stl(std::string& text, const Location& where) {
     return bytes.substr(0, size);
 }
 
-/// InputError if a PLY has a faulty header or ends before the last of its elements does. Libassimp
-/// reads past the end of such a file.
+/// InputError for a PLY with a faulty header, or cut off: libassimp reads past its end.
 void require_whole_ply(std::string_view bytes, const Location& where) {
     const PlyHeader header = take_header(bytes, where);
     for (const PlyElement& element : header.elements) {

@@ -22,8 +22,7 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     return box_from_above(corners_of(surface, triangle));
 }
 
-/// height_above() without std::optional, which compilers pass through memory. False if there is no
-/// height; then z is unchanged.
+/// height_above() without std::optional, which compilers pass through memory. False: none.
 [[gnu::always_inline]] inline bool find_height(const Eigen::Vector3d& corner_a,
                                                const Eigen::Vector3d& corner_b,
                                                const Eigen::Vector3d& corner_c,

@@ -34,8 +34,7 @@ Hull hull_of(std::span<const Eigen::Vector3d> points);
 
 Eigen::AlignedBox2d box_of(const Hull& hull);
 
-/// The distance between two convex polygons, 0 when they meet; infinite, after a quick test, if it
-/// is clearly more than `most`.
+/// The distance between two convex polygons; infinite if a quick test finds it above `most`.
 double distance_between(const Hull& a, const Hull& b,
                         double max_m = std::numeric_limits<double>::infinity());
 

@@ -10,8 +10,7 @@
 namespace sonarsim {
 
 /// A part of the endless grid of a bed's heights. Cells are counted from the bed's (0, 0), to the
-/// east and to the north; the height of a cell stands at its centre. The part begins with its
-/// northern row, as an image does.
+/// east and to the north; the height of a cell stands at its centre. The northern row is the first.
 struct BedGrid {
     double cell_m = 1.0;
     std::int64_t west = 0;   ///< number of the first column

@@ -64,8 +64,7 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
 
 void append(const Backscatter& tabled, Scattering& scattering);
 
-/// `lambert_db`: 10 log mu. `reflection`: of power, at normal incidence. `slope_rms`: of the
-/// facets, 0: none.
+/// `lambert_db`: 10 log mu. `reflection`: of power at normal incidence. `slope_rms`: of facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);
 

@@ -49,8 +49,7 @@ double bottom_strength_db(const ExpectedEcho& echo, const Material& material);
 /// The mean echo of a bottom in a range bin: S + 10 log A - 40 log r - 2 alpha r.
 double bottom_echo_db(const ExpectedEcho& echo, double strength_db, double range_m);
 
-/// The echo of a target on the axis: TS - 40 log r - 2 alpha r, less the loss of an unfocused
-/// side-scan array in its near field.
+/// The echo of a target on the axis: TS - 40 log r - 2 alpha r, less the near field's loss.
 double target_echo_db(const ExpectedEcho& echo, double target_strength_db, double range_m);
 
 /// The farthest range with an echo of at least `level_db`, 0: none. `echo_db` falls with range.

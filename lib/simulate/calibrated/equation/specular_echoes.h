@@ -13,8 +13,7 @@
 namespace sonarsim {
 
 /// A piece of a second surface, which a sonar sees in two places: directly, or over the water's
-/// surface, and as an image over its first reflector. Sound goes out to one of the two places and
-/// comes back from the other.
+/// surface, and as an image over its first reflector. Sound goes to one and returns from the other.
 struct SpecularPath {
     /// A place and its changes along the piece's half edges, m in the sensor's frame.
     struct Place {

@@ -15,8 +15,7 @@ namespace {
 // Greatest length of a resolution cell on the surface, in pulse lengths.
 constexpr float longest_on_surface = 4.0F;
 
-// Few large cells among small ones make the power uneven: from this area of a small cell on, over
-// the wanted one, all are small.
+// From this area of a small cell on, over the wanted one, all are small: few large are uneven.
 constexpr float min_split_areas = 0.5F;
 
 template <class T>

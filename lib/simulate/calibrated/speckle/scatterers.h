@@ -70,8 +70,7 @@ struct PointScatterers {
 /// cells are counted from the middle of the highlight, where facets face the sonar. So a highlight
 /// smaller than a cell is one scatterer, at its place, with the highlight's energy, and does not
 /// flicker as the sonar moves. The scatterers of a larger highlight, and those of other surface,
-/// have exponential strengths; the transition is gradual. A scatterer keeps its phase and its draw
-/// from ping to ping.
+/// have exponential strengths; the transition is gradual. A scatterer keeps its draws.
 ///
 /// `pieces`: surface after surface. `cell`: its size.
 PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,

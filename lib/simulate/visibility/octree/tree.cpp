@@ -42,8 +42,7 @@ void cut(const Polygon& from, int axis, double bound, bool keep_above, Polygon& 
 }
 
 /// True if the part of a triangle in a cube is real surface, false if it is rounding where the
-/// triangle touches the cube: then its area is tiny compared to the triangle. All area of a
-/// triangle without area is rounding.
+/// triangle touches the cube: then its area is tiny beside the triangle's.
 bool is_real(double part, const Triangle& t) {
     const double whole = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
     return whole > 0.0 && part > 1e-6 * whole;
@@ -136,8 +135,7 @@ Triangle triangle_of(const Scene& scene, std::uint32_t index) {
             scene.vertices[c].cast<double>()};
 }
 
-/// The leaf of a cube; nothing if none of `triangles` has surface in it. At most a millionth of a
-/// triangle is lost to rounding.
+/// The leaf of a cube; nothing if it holds no surface but a millionth of a triangle.
 std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> triangles,
                             const Scene& scene, const Caster& caster) {
     const double sliver = 1e-12 * cube.edge * cube.edge;

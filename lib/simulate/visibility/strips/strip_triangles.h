@@ -102,8 +102,7 @@ struct StripTriangles {
     float thinness = 0.0F;
 };
 
-/// Projects triangles into a frame. Surface nearer than 1e-5 of the greatest range, along the
-/// forward axis, is ignored.
+/// Projects triangles into a frame, without what is nearer than 1e-5 of the greatest range.
 StripTriangles strip_triangles(const ClustersInView& clusters, const ColumnFrame& frame,
                                float range_max_m);
 

@@ -72,8 +72,7 @@ class ColumnScan {
         return out;
     }
 
-    /// A piece at the border of the view: cuts it to where it lies in the view, and where one of
-    /// its lines crosses the border.
+    /// A piece at the border of the view: cuts it there, and where a line crosses the border.
     void add_at_border(int i, float from, float to) {
         struct Room {
             float low, high, all;
