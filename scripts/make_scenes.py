@@ -49,8 +49,7 @@ def builders(cells: int, area: float) -> dict:
         "lifeboat": {"lifeboat.glb": lifeboat.build}, "bathymetry": {"bathymetry.tif": bathymetry.build},
         "sediments": {"sediments.png": sediments.colours, "backscatter.tif": sediments.decibels},
         "basin": {"basin_floor.tif": sediments.basin_decibels},
-        "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()},
-    }
+        "stock": {f"stock/{name}.glb": build for name, build in stock.files().items()}}
 
 
 def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:

@@ -17,8 +17,7 @@ DOORS = {
     "simulate": ("water", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product", "sonar", "assembly",
                  "reference"),
     "output": ("format", "dataset"),
-    "run": ("checks", "job", "report", "preview"),
-}
+    "run": ("checks", "job", "report", "preview")}
 DOOR_OF = {folder: door for door, folders in DOORS.items() for folder in folders}
 # The folders of lib/ with the folders that each includes.
 ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
@@ -52,8 +51,7 @@ PARTS = {
             ["run_job", "ping_source"], ["variants"], ["dataset_folders"], ["merge", "status", "verify"]],
     "calibrated": [["signal/"], ["equation/"], ["beams/", "speckle/"], ["receiver/"], ["*"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]],
-}
+    "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]]}
 # These folders work with what was traced, and take its ranges from arrivals.
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
@@ -171,8 +169,7 @@ def try_the_rules():
         "lib/simulate/visibility/view.h": '#include "core/text.h"\n',
         "lib/simulate/visibility/rays/rays.h": '#include "simulate/visibility/engine.h"\n',
         "lib/simulate/visibility/make_engine.cpp": '#include "simulate/visibility/rays/rays.h"\n',
-        "apps/sonarsim/main.cpp": '#include <CLI/CLI.hpp>\n#include "simulate/visibility/make_engine.h"\n',
-    }
+        "apps/sonarsim/main.cpp": '#include <CLI/CLI.hpp>\n#include "simulate/visibility/make_engine.h"\n'}
     assert faults_in_code(sound)[1] == [], faults_in_code(sound)
     for name, text, fault in (
             ("lib/core/file.h", '#include "simulate/visibility/view.h"', "core may not include visibility"),
@@ -190,8 +187,7 @@ def try_the_rules():
             ("tests/core/text_test.cpp", "CHECK(x == doctest::Approx(1e-8));", "compare by test::approx"),
             ("lib/simulate/visibility/view.h", "class Text final {", "lib/core/text.h has a Text"),
             ("lib/core/file.h", '#include "text.h"', 'write "door/folder/file.h"'),
-            ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
-    ):
+            ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone")):
         found = faults_in_code({**sound, name: text + "\n"})[1]
         assert any(fault in line for line in found), f"not found: {fault}; but {found}"
     assert len(faults_in_table("| `lib/core` | |\n| `lib/input/mission` | |\n")) == len(ALLOWED) - 2

@@ -67,9 +67,8 @@ void sync_file_system(const std::filesystem::path& folder);
 /// No space left on device".
 [[noreturn]] void throw_errno(const char* what, const std::filesystem::path& path);
 
-/// A new temporary name, ".<name>.<16 random hex digits>.part". It is a hidden sibling of `path`,
-/// so that a rename stays within one file system. The digits are random, since processes in two
-/// containers may have the same id.
+/// A new temporary name, ".<name>.<16 random hex digits>.part". A hidden sibling of `path`: a
+/// rename stays in one file system. Processes in two containers may have one id.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 /// True if temporary_name() made this name.

@@ -63,8 +63,7 @@ def write_glb(path, parts):
         "scene": 0, "scenes": [{"nodes": list(range(len(parts)))}],
         "nodes": [{"name": part.name, "mesh": i} for i, part in enumerate(parts)], "meshes": meshes,
         "materials": [{"name": name, "doubleSided": True} for name in names],
-        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}],
-    }
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     head = struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + len(binary), len(text), b"JSON")

@@ -13,8 +13,7 @@ def shell():
         "wall_east": ((x, -y, 0), (x, -y, z), (x, y, z), (x, y, 0)),
         "wall_north": ((x, y, 0), (x, y, z), (-x, y, z), (-x, y, 0)),
         "wall_west": ((-x, y, 0), (-x, y, z), (-x, -y, z), (-x, -y, 0)),
-        "wall_south": ((-x, -y, 0), (-x, -y, z), (x, -y, z), (x, -y, 0)),
-    }
+        "wall_south": ((-x, -y, 0), (-x, -y, z), (x, -y, z), (x, -y, 0))}
     return [made(name, "concrete", (Part.add, corners, [range(4)])) for name, corners in walls.items()]
 
 

@@ -9,8 +9,7 @@ constexpr ElementsConfig errors{.gain_error_db = 0.5, .phase_error_deg = 3.0, .s
 
 }  // namespace
 
-// The powers about a null are exponential: the mean of 300 instruments times 5 nulls is known
-// to 2.6 %. The bound is 4 sigma.
+// The powers about a null are exponential: the mean of 300 x 5 is known to 2.6 %; 4 sigma.
 TEST_CASE("element errors: the mean side lobe is their variance over the elements") {
     for (const double side_lobe_db : {-13.3, -30.0}) {
         const LineArray array = line_array(radians(1.0), side_lobe_db);

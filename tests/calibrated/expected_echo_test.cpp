@@ -33,8 +33,7 @@ Scene bed_of(double phi) {
     return bed_scene({.name = "bed", .grain_phi = phi}, 150.0F, 0.0);
 }
 
-/// The mean power of each range bin over pings and the beams from `first` to `last` of a sonar over
-/// a bed, as its preset delivers it.
+/// The mean power of range bins over pings and beams `first` to `last` of a preset over a bed.
 Eigen::ArrayXd mean_rows(const Sonar& sonar, const Scene& scene, double altitude_m, int first,
                          int last) {
     constexpr int pings = 6;
@@ -123,8 +122,7 @@ TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
     }
 }
 
-// In all of 20 pings of real multibeam sonars that look down, the first bottom echo makes a
-// ring in all beams, 31 dB above the water.
+// In 20 pings of real multibeam sonars the first bottom echo is a ring, 31 dB above the water.
 TEST_CASE("presets: the ring of a multibeam sonar") {
     const Sonar sonar =
         preset_sonar("bathymetric_400khz", "    range_max_m: 30\n    range_bins: 600\n");

@@ -34,8 +34,7 @@ Sonar noisy_sonar(SonarKind kind, double source_db, double noise_db) {
     return make_sonar(config, {});
 }
 
-/// Noise of many pings, whose power should be 1. A ping's correlation of powers is over its bins
-/// and beams, about that power.
+/// Noise of many pings, whose power should be 1. Correlations are over bins and beams, about it.
 struct NoiseOfPings {
     static constexpr int lags = 6;
     std::array<std::vector<double>, lags + 1> products;  ///< [lag][ping]
@@ -60,8 +59,7 @@ struct NoiseOfPings {
 
 }  // namespace
 
-// The correlation behind a matched filter is the amplitude of the pulse, whose spectrum is the
-// power spectrum of the noise.
+// The correlation behind a matched filter is the pulse, whose spectrum is the noise's power.
 TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
     constexpr double unit = 1e-3;  // a width in sines that stands for that of the pulse
     for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {

@@ -99,8 +99,7 @@ TEST_CASE("beams: echoes between the columns have the energy of the pattern on a
 TEST_CASE("beams: out of focus amplitudes and powers have Fresnel's pattern, and all energy") {
     // The pattern of a uniform aperture of W wavelengths with the phase q (2 x)^2 is the square of
     // the integral of exp(i (q (2 x)^2 + 2 pi x W u)) over x from -1/2 to 1/2. By Parseval's
-    // theorem its integral over u does not depend on q. Columns are so fine that it hardly matters
-    // that the echo lies on one.
+    // theorem its integral over u does not depend on q. Columns are fine.
     constexpr int half = 150;
     const LineArray array = line_array(radians(0.5), -13.3);
     const double step = 0.1 / array.wavelengths;

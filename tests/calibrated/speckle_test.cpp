@@ -29,8 +29,7 @@ double power_correlation_of_pulse(const PulseConfig& pulse, double apart_m) {
     return power_correlation(band, 0.0, apart_m / pulse.resolution_m * unit * band.wavelengths);
 }
 
-/// 20 degrees of a preset's fan, its beams as far apart as they are, and bins of half its
-/// resolution about `range_m`.
+/// 20 degrees of a preset's fan with its beams, and bins of half its resolution at `range_m`.
 struct Patch {
     Sonar sonar;
     Samples surface;

@@ -5,8 +5,7 @@
 
 namespace {
 
-/// A ball and a dark wall `distance_m` off, which hides what lies beyond a line that is `edge_m`
-/// off the axis, turned about it.
+/// A ball and a dark wall `distance_m` off, to a line `edge_m` off the axis, turned about it.
 BallScene behind_wall(BallScene ball, double distance_m, double edge_m, double turn_rad) {
     const auto at = [&](double across, double up) -> Eigen::Vector3f {
         return Eigen::Vector3d(distance_m, across * std::cos(turn_rad) - up * std::sin(turn_rad),
@@ -51,8 +50,7 @@ TEST_CASE("targets: the strength of spheres, any mesh, sonar and engine") {
 }
 
 TEST_CASE("targets: a sphere of few triangles is a sphere, however large it looks") {
-    // Its highlight is seven resolution cells across, enough for an engine's samples; but these
-    // have the normals of the facets.
+    // Its highlight is seven cells across: enough samples, but with the normals of the facets.
     SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 9e5);
     set_range(config, 0.5, 12.0, 1200);
     config.azimuth_deg = 60.0;

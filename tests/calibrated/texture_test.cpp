@@ -10,7 +10,6 @@ constexpr double sand_db = 1.2;  // an octave's deviation, as the header has it
 constexpr double rest_db = 0.6;
 
 /// The factors in dB on a level bed of sand (first) and of another material (second) at places, m.
-/// The sonar stands anywhere.
 Eigen::ArrayX2d decibels(const std::vector<Eigen::Vector2d>& places) {
     std::vector<Material> materials(2);
     materials[0].grain_phi = 1.5;

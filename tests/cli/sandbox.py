@@ -82,8 +82,7 @@ def gltf(nodes, meshes, materials=("Concrete",)):
     """Nodes as glTF has them over meshes of (points, indices, material)."""
     data, views, accessors, out = b"", [], [], []
     for points, indices, material in meshes:
-        for part, kind, code, count in (
-                (b"".join(struct.pack("<3f", *p) for p in points), "VEC3", 5126, len(points)),
+        for part, kind, code, count in ((b"".join(struct.pack("<3f", *p) for p in points), "VEC3", 5126, len(points)),
                 (struct.pack(f"<{len(indices)}I", *indices), "SCALAR", 5125, len(indices))):
             views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
             accessors.append({"bufferView": len(views) - 1, "componentType": code, "count": count, "type": kind})

@@ -81,8 +81,7 @@ def one_node(folder):
         start("slurmctld", "-D", "-c")
         start("slurmd", "-D")
         if not wait_for(lambda: "idle" in subprocess.run(
-                ["sinfo", "-h", "-o", "%T"], env=environment, capture_output=True, text=True,
-                check=False).stdout, 60):
+                ["sinfo", "-h", "-o", "%T"], env=environment, capture_output=True, text=True, check=False).stdout, 60):
             raise RuntimeError("\n".join(f"{log.name}: {log.read_text(errors='replace')[-1500:]}"
                 for log in sorted([*folder.glob("*.out"), *folder.glob("*.log")])))
         yield environment

@@ -40,8 +40,7 @@ class Texts(Sandbox):
                     self.assertIn(option, page.split("Examples:")[0])
 
     def test_version_names_the_build(self):
-        self.assertRegex(lines_of("--version"),
-                         r"\Asonarsim \d+\.\d+\.\d+\nbuilt by \w+ [\d.]+ with .*; arithmetic \S+; ")
+        self.assertRegex(lines_of("--version"), r"\Asonarsim \d+\.\d+\.\d+\nbuilt by \w+ [\d.]+ with .*; arithmetic \S+; ")
 
     def test_texts_for_a_terminal(self):
         self.assertLessEqual(max(map(len, lines_of("preset").splitlines())), 80)
@@ -61,8 +60,7 @@ class Texts(Sandbox):
             self.assertEqual(found.group(1), printed, "run ./scripts/write_keys.sh")
 
     def test_what_is_misspelt_is_named(self):
-        for arguments, message in (
-                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
+        for arguments, message in (([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
                 (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
                 (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
                 (["render", "mission.yaml", "--set", "seed"], "--set"),
@@ -118,8 +116,7 @@ class Python(Sandbox):
 
 
 # A text that stands in the small mission, what it becomes, and the key at which it is wrong.
-WRONG = (
-    ("seed: 7", "sead: 7", "sead"), ("seed: 7", "seed: -1", "seed"),
+WRONG = (("seed: 7", "sead: 7", "sead"), ("seed: 7", "seed: -1", "seed"),
     ("seed: 7", "seed: 7\nengine: cubes", "engine"), ("seed: 7", "seed: 7\nwater: 997", "water"),
     ("seed: 7", "seed: 7\nclasses: {nodes: a, class: b}", "classes"), ("  materials: materials.csv\n", "", "scene"),
     ("  materials: materials.csv\n", "  materials: materials.csv\n  objects: [{name: hull}]\n", "objects"),

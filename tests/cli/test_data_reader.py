@@ -81,8 +81,7 @@ class Reader(Sandbox):
         than any pixel; and a ramp in azimuth rises from starboard (right) to port (left)."""
         for name in ("fls", "round"):
             sensor = self.open()[name]
-            polar = np.random.default_rng(1).random((len(sensor.range_edges_m) - 1,
-                                                     len(sensor.azimuth_edges_rad) - 1))
+            polar = np.random.default_rng(1).random((len(sensor.range_edges_m) - 1, len(sensor.azimuth_edges_rad) - 1))
             back = sensor.from_fan(sensor.to_fan(polar, width=2000))
             # A pixel is reach / 1000 wide or less, and a bin of the row r about r * azimuth wide.
             np.testing.assert_array_equal(back[2:], polar[2:])

@@ -19,8 +19,7 @@ BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
                     (?:\./|\.ci/|scripts/|build/|for\ \w+\ in\ [^:;]*;\ do|
                     (?:sonarsim|/usr/bin/python3|make|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
 
-NOT_RUN = {
-    "./scripts/test.sh": "runs this test",
+NOT_RUN = {"./scripts/test.sh": "runs this test",
     "yolo detect train model=yolo11n.pt data=detection/data.yaml": "needs Ultralytics, which is not part of sonarsim",
     "yolo detect train model=yolo11n.pt data=anchors/data.yaml": "the same",
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
@@ -33,8 +32,7 @@ MODULE_PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
 # What makes a command smaller, and what is run in place of one that has place-holders.
 TINY = "--set sensors.fls.range_bins=64 --set sensors.fls.azimuth_bins=64"
 FEW = f"--set trajectory.rate_hz=1 {TINY}"
-WITH = {
-    "./scripts/render.sh configs/tank_imaging.yaml": FEW,
+WITH = {"./scripts/render.sh configs/tank_imaging.yaml": FEW,
     "./scripts/render.sh configs/detection.yaml": f"--set variants=5 --set trajectory.rate_hz=0.5 {TINY}",
     "build/sonarsim validate anchors.yaml": f"--set variants=1 {FEW}", "build/sonarsim preview anchors.yaml": FEW,
     "build/sonarsim preview anchors.yaml --set sensors.fls.range_max_m=25 --out far.png": FEW,

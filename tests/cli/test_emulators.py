@@ -51,8 +51,7 @@ class Memcheck(Sandbox):
                 shutil.rmtree(self.out, ignore_errors=True)
                 self.assert_renders("--shard", "1/2", "--set", f"engine={engine}")
                 self.run_program(VALGRIND, "-q", "--error-exitcode=99", "--fair-sched=yes", SONARSIM, "render",
-                                 "mission.yaml", "--quiet", "-j1", "--shard", "2/2", "--set", f"engine={engine}",
-                                 timeout=500)
+                                 "mission.yaml", "--quiet", "-j1", "--shard", "2/2", "--set", f"engine={engine}", timeout=500)
                 self.assertTrue(self.dataset()["complete"])
 
 

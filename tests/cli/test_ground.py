@@ -191,8 +191,7 @@ class Seabed(Composed):
             column = int((x - grid["west_m"]) / grid["cell_m"])
             bottom, top = (rock["box_world_m"][side][2] for side in ("min", "max"))
             # The bed within half a cell of the middle has nearly its height.
-            self.assertAlmostEqual(bottom + rock["buried"] * (top - bottom), heights[row * grid["columns"] + column],
-                                   delta=0.25)
+            self.assertAlmostEqual(bottom + rock["buried"] * (top - bottom), heights[row * grid["columns"] + column], delta=0.25)
         self.assertEqual([one["material"] for one in reported["materials"]], ["Concrete", "steel"])
         self.assertAlmostEqual(sum(one["share"] for one in reported["materials"]), 1)
         # A dataset like any other: verified, resumed where a file of the truth is gone, and merged.

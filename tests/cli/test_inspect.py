@@ -171,8 +171,7 @@ class Preset(Sandbox):
     def test_a_file_and_all_of_them(self):
         self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\n")
         self.assertEqual(self.reported("preset", "mine.yaml")["grazing_angle_deg"], 90)
-        for text, name, *words in (
-                ("kind: echosounder\n", "mine.yaml", "mine.yaml", "model: calibrated"),
+        for text, name, *words in (("kind: echosounder\n", "mine.yaml", "mine.yaml", "model: calibrated"),
                 ("kind: echosounder\nmodel: calibrated\nazimut_bins: 3\n", "mine.yaml", "mine.yaml:3:1", "azimut_bins"),
                 ("", "gemini_720", "did you mean 'gemini_720is'?", "there are: aris_3000")):
             self.write("mine.yaml", text)
@@ -253,8 +252,7 @@ class Report(Sandbox):
     def test_bad_input(self):
         octree = ("--set", "sensors.fls.range_bins=8", "--engines", "octree")
         profile = ("--set", "scene.water_surface={height_m: 5}", "--set", "water.profile={named: summer}")
-        for arguments, words in (
-                ((), ""), (("mission.yaml", "--hard"), "unknown option"), (("none.yaml",), "none.yaml"),
+        for arguments, words in (((), ""), (("mission.yaml", "--hard"), "unknown option"), (("none.yaml",), "none.yaml"),
                 (("mission.yaml", "--engines", "sonar"), ""),
                 (("mission.yaml", "--set", "variants=2", *QUICK), "this mission has variants"),
                 (("mission.yaml", *octree, *QUICK), "--engines: no setting"),

@@ -232,8 +232,7 @@ class Objects(Sandbox):
     def test_a_wall_is_drawn_at_its_foot(self):
         """There floor and wall reflect the sound into each other: the brightest line of a tank is multipath. Of the
         mirror image of the floor, which the wall shows behind it, nothing is drawn."""
-        self.write("room.gltf", gltf([{"name": "floor", "mesh": 0, "translation": [0, -0.8, 0]},
-                                      {"name": "wall", "mesh": 1}],
+        self.write("room.gltf", gltf([{"name": "floor", "mesh": 0, "translation": [0, -0.8, 0]}, {"name": "wall", "mesh": 1}],
                                      [sheet_mesh(5.0), ([(1.5, y, z) for y in (-0.8, 1) for z in (-5, 5)], [0, 1, 3, 0, 3, 2], 0)]))
         self.write("path.csv", csv_of("0,0,0,0,0,30,0", "1,0,0,0,0,25,0"))
         self.write("mission.yaml", WALL)

@@ -120,12 +120,10 @@ class SameBytes(Package):
             mission.ping(0)
 
     def test_a_dict_and_overrides(self):
-        self.assert_renders("--set", "seed=9", "--set", "sensors.fls.range_bins=40",
-                            "--set", "sensors.fls.noise={add_sigma: 0.2}")
+        self.assert_renders("--set", "seed=9", "--set", "sensors.fls.range_bins=40", "--set", "sensors.fls.noise={add_sigma: 0.2}")
         changes = {"seed": 9, "sensors.fls.range_bins": np.int64(40), "sensors.fls.noise": {"add_sigma": 0.2}}
         self.assert_same(self.open(changes), self.out)
-        written = {
-            "name": "box", "seed": 9, "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
+        written = {"name": "box", "seed": 9, "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
             "trajectory": {"file": "path.csv"},
             "sensors": {"fls": {"kind": "imaging", "azimuth_deg": 60, "elevation_deg": 12, "range_max_m": 6,
                                 "range_bins": 40, "azimuth_bins": 32, "noise": {"add_sigma": 0.2}}}}
@@ -240,8 +238,7 @@ class Use(Package):
                 elif isinstance(node, ast.FunctionDef):
                     found = inspect.getattr_static(owner, node.name)
                     if inspect.isfunction(found):
-                        self.assertEqual(list(inspect.signature(found).parameters),
-                                         [one.arg for one in node.args.args], node.name)
+                        self.assertEqual(list(inspect.signature(found).parameters), [one.arg for one in node.args.args], node.name)
 
         for module in (sonarsim.data, sonarsim._sonarsim):
             stub = pathlib.Path(sonarsim.__file__).parent / (module.__name__.split(".")[1] + ".pyi")
@@ -264,10 +261,8 @@ class Torch(Package):
         free."""
         tools = types.SimpleNamespace(IterableDataset=object, get_worker_info=None)
         module = self.module(types.SimpleNamespace(utils=types.SimpleNamespace(data=tools)))
-        for variants, shard, expected in (
-                (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
-                (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
-                ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
+        for variants, shard, expected in ((VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
+                (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]), ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
             self.write("mission.yaml", MISSION + variants)
             data = module.PingDataset(self.folder / "mission.yaml", shard=shard,
                                       transform=lambda ping: (ping.variant, ping.number))

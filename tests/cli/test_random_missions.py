@@ -141,8 +141,7 @@ def write_mission(draw, keys, folder):
              for i in range(draw.randint(1, 6))]
     (folder / "path.csv").write_text("".join(
         ",".join(map(str, row)) + "\n" for row in ["t_s x_m y_m z_m roll_deg pitch_deg yaw_deg".split(), *poses]))
-    density, speed = (number(draw, {"type": "number", "minimum": 1e-9, "maximum": 1e9, "default": 2000.0})
-                      for _ in range(2))
+    density, speed = (number(draw, {"type": "number", "minimum": 1e-9, "maximum": 1e9, "default": 2000.0}) for _ in range(2))
     (folder / "materials.csv").write_text(f"material,density_kg_m3,sound_speed_m_s\nConcrete,{density!r},{speed!r}\n")
     return mission
 

@@ -36,8 +36,7 @@ def bottom(scale=1.0, z=0.0):
     """A square of 100 m about the origin, with a ripple so that it has some height."""
     points, indices, material = sheet_mesh(50.0, 4, lambda x, _: 0.02 * (round(x / 25) % 2))
     points = [tuple(scale * p for p in point) for point in points]
-    return gltf([{"name": "sand", "mesh": 0, "translation": [0, z, 0]}],
-                [(points, indices, material)], ("Sand",))
+    return gltf([{"name": "sand", "mesh": 0, "translation": [0, z, 0]}], [(points, indices, material)], ("Sand",))
 
 
 def lone_hull():
@@ -103,16 +102,13 @@ WAY = "waypoints: [{position_m: [4, -2, 1]}, {position_m: [4, 2, 1]}], rate_hz: 
 # What is done, and words of the message.
 REFUSED = (
     # Files of other kinds, and names of files.
-    ({"mission.yaml": GLB}, "is a .glb mesh, not YAML"),
-    (edited("sensors:\n", "noise: {add_sigma: 0.01}\nsensors:\n"),
-     "unknown key 'noise'; it belongs to a sensor: sensors.NAME.noise"),
-    (edited("kind: imaging", "preset: gemini_720"),
+    ({"mission.yaml": GLB}, "is a .glb mesh, not YAML"), (edited("sensors:\n", "noise: {add_sigma: 0.01}\nsensors:\n"),
+     "unknown key 'noise'; it belongs to a sensor: sensors.NAME.noise"), (edited("kind: imaging", "preset: gemini_720"),
      "mission.yaml:10:13", "did you mean 'gemini_720is'?", "micron", "sensors/NAME.yaml"),
     (edited("kind: imaging", "preset: oculus_m750d_750khz"), "did you mean 'sensors/oculus_m750d_750khz.yaml'?"),
     (edited("kind: imaging", "kind: sidescan\n    preset: sensors/gemini_720is.yaml"),
      "mission.yaml:10:11: 'sensors/gemini_720is.yaml' is the preset of a sonar of the kind 'imaging'"),
-    (edited("bottom.gltf", "botom.gltf"),
-     "botom.gltf: cannot open", "did you mean 'bottom.gltf'?", "mission.yaml:3:3 names it"),
+    (edited("bottom.gltf", "botom.gltf"), "botom.gltf: cannot open", "did you mean 'bottom.gltf'?", "mission.yaml:3:3 names it"),
     (edited("mine.gltf", "meshes/mine.gltf"), "there is no folder", "mission.yaml:6:7"),
     (edited("bottom.gltf", "scenes\\bottom.gltf"), "separate folders by '/'"),
     (edited("bottom.gltf", "~/bottom.gltf"), "'~' is not replaced"),
@@ -148,12 +144,10 @@ REFUSED = (
             "area_min_m: [2, -2], area_max_m: [8, 2]}"),
      "mission.yaml:6:7", "'mine': object", "of 50 finds no room in 1000 tries", "larger area, fewer or smaller objects"),
     (moving(WAY + "8"), "mission.yaml:6:7", "'fish' moves from 0 s to", "ping from 0 s to 9 s",
-     "let its trajectory last as long"),
-    (moving(WAY + "0.1", ""), "mission.yaml:6:", "an object that moves needs a name"),
+     "let its trajectory last as long"), (moving(WAY + "0.1", ""), "mission.yaml:6:", "an object that moves needs a name"),
     (moving(WAY + "0.1", "name: fish, place: on_bottom, "), "mission.yaml:6:", "an object that moves cannot rest on the bottom"),
     # Grounds.
-    (ground("heightmap: {file: bed.png, pixel_m: 5}"),
-     "the heightmap has no material; write scene.heightmap.material: NAME"),
+    (ground("heightmap: {file: bed.png, pixel_m: 5}"), "the heightmap has no material; write scene.heightmap.material: NAME"),
     (heightmap(""), "bed.png", "no world file lies next to it", "scene.heightmap.pixel_m", "mission.yaml:3:"),
     (heightmap(", pixel_m: 1, height_scale: 0"), "height_scale of 0 makes all flat"),
     (heightmap(", pixel_m: 1") | {"bed.png": png([[5] * 96] * 40, 16, 3)},
@@ -183,23 +177,20 @@ REFUSED = (
 # The same of missions that can be rendered: the number of the warning, and words of it.
 WARNED = (({"bottom.gltf": bottom(1000)}, "W04", "scene.units: mm"),
     ({"bottom.gltf": bottom(0.001)} | edited("  objects:\n    - " + MINE + "\n", ""), "W04",
-     "check its units (scene.units: mm"),
-    (edited("range_max_m: 12", "range_max_m: 15000"), "W04", "range_max_m is in metres"),
+     "check its units (scene.units: mm"), (edited("range_max_m: 12", "range_max_m: 15000"), "W04", "range_max_m is in metres"),
     ({"mine.gltf": box_gltf([6000] * 3, "Steel")} | mine_as(MINE.replace("0.3", "6001")), "W01", "mine.gltf is 1.2e+04 m long"),
     ({"materials.csv": MATERIALS.replace("7850", "7.85")}, "W01", "looks like g/cm^3"),
     ({"materials.csv": MATERIALS.replace("5900", "5.9")}, "W01", "looks like km/s"),
     ({"path.csv": path(z=-5)} | edited("\n    - " + MINE, " []"), "W10", "z points up"),
     ({"mine.gltf": box_gltf([3] * 3, "Steel")} | mine_as(MINE.replace("[20, 4, 0.3]", "[4, 0, 5]")), "W11", "it is inside 'mine'"),
     ({"bottom.gltf": lone_hull()} | edited("\n    - " + MINE, " []"), "W11", "it is inside 'hull'"),
-    ({"path.csv": path(z=30)}, "W13", "raise range_max_m or sail nearer"),
-    ({"path.csv": path(z=95), "bottom.gltf": bottom(z=-100)}
+    ({"path.csv": path(z=30)}, "W13", "raise range_max_m or sail nearer"), ({"path.csv": path(z=95), "bottom.gltf": bottom(z=-100)}
      | edited("0.3]", "-99.7]", "[0, 30, 0]", "[0, 90, 0]"), "W13", "z points up, and depths are negative"),
     (edited("range_max_m: 12", "range_min_m: 90\n    range_max_m: 120"), "W14", "lower range_min_m"),
     (edited("rpy_deg: [0, 30, 0]", "rpy_deg: [0, 0, 0]", "elevation_deg: 20", "elevation_deg: 5"), "W15",
      "raise elevation_deg, or tilt the sonar"),
     (edited("rpy_deg: [0, 30, 0]", "rpy_deg: [0, -80, 0]", "azimuth_deg: 90", "azimuth_deg: 20"), "W16",
-     "turn it with mount.rpy_deg"),
-    ({"path.csv": path(offset=(4e5, 6e6))}, "W17", "the nearest ever is 6.01"),
+     "turn it with mount.rpy_deg"), ({"path.csv": path(offset=(4e5, 6e6))}, "W17", "the nearest ever is 6.01"),
     (edited("add_sigma: 0.01", "add_sigma: 5"), "W18", "lower noise.add_sigma"),
     ({"path.csv": path(offset=(27, 0))} | edited("\n    - " + MINE, " []"), "W40", "the scene ends within its view"),
     (edited("azimuth_deg: 90", "azimuth_deg: 1.57"), "W38", "1.57 radians are 89.95 degrees; radians? azimuth_deg: 89.95"),

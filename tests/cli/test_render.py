@@ -118,11 +118,9 @@ class Render(Sandbox):
         text = (ROOT / "configs/towed_sidescan.yaml").read_text().replace("../scenes", str(ROOT / "scenes"))
         scatter, trajectory = text.index("  scatter:"), text.index("trajectory:")
         self.write("towed.yaml", (text[:scatter] + text[trajectory:]).replace("cell_m: 0.12", "cell_m: 0.4").replace("rippled_", ""))
-        for mission, *settings in (
-                (ROOT / "configs/tank_scanning.yaml",),
+        for mission, *settings in ((ROOT / "configs/tank_scanning.yaml",),
                 ("towed.yaml", "trajectory.rate_hz=5", "sensors.sss.range_max_m=12", "output.xtf=true", "output.mosaic=true",
-                 "output.labels=[]"),
-                (ROOT / "configs/made_seabeds.yaml", "variants=2", "trajectory.rate_hz=2")):
+                 "output.labels=[]"), (ROOT / "configs/made_seabeds.yaml", "variants=2", "trajectory.rate_hz=2")):
             with self.subTest(mission=mission):
                 shutil.rmtree(self.out, ignore_errors=True)
                 options = [*with_keys(*settings), "--out", self.out]
@@ -146,8 +144,7 @@ class Signals(Sandbox):
         process.send_signal(number)
         _, stderr = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 128 + number, stderr)
-        self.assertIn("warning: stopped at once; written files are complete; run the same command "
-                      "again to continue", stderr)
+        self.assertIn("warning: stopped at once; written files are complete; run the same command " "again to continue", stderr)
 
     def test_while_a_scene_is_loaded(self):
         # Copies of a sheet whose triangles have no area, which take time and no memory.

@@ -14,8 +14,7 @@ FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints:
 PARTICLES = ("  particles:\n    - {name: fish, target_strength_db: -20, count: 1, position_m: "
              "[4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]}\n")
 OBJ_HEAD = "mtllib a.mtl\no crate\nusemtl Concrete\n"
-CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      range_lambda_m: 0.02\n",
-              "    model: calibrated\n")
+CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      range_lambda_m: 0.02\n", "    model: calibrated\n")
 
 
 def text_stl(points, faces):
@@ -36,8 +35,7 @@ class Objects(Composed):
     def test_the_same_bytes_as_one_gltf(self):
         """World (x, y, z) is (x, z, -y) in glTF; a turn about the world's z is one about glTF's y."""
         half = math.sqrt(0.5)
-        self.write("whole.gltf", gltf(
-            [{"name": "floor", "mesh": 0}, {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
+        self.write("whole.gltf", gltf([{"name": "floor", "mesh": 0}, {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
              {"name": "b", "mesh": 1, "translation": [6.5, 0.75, 0.5], "scale": [1.5, 1.5, 1.5]},
              {"name": "c", "mesh": 1, "translation": [5.0, 0.625, 2.5],
               "rotation": [0, half, 0, half]}], [sheet_mesh(), box_mesh()]))
@@ -65,8 +63,7 @@ class Objects(Composed):
         shape = points, faces = triangles_of(box_mesh())
         self.objects(OBJECT % ("crate.gltf", ""))
         whole = self.assert_images()
-        for name, content, keys in (
-                ("a.obj", obj(*shape, OBJ_HEAD).replace("a.mtl", "../../../etc/passwd"), ""),
+        for name, content, keys in (("a.obj", obj(*shape, OBJ_HEAD).replace("a.mtl", "../../../etc/passwd"), ""),
                 ("mm.obj", obj([(1000 * x, -1000 * z, 1000 * y) for x, y, z in points], faces, OBJ_HEAD), ", units: mm, up: z"),
                 ("a.STL", text_stl(*shape), ", material: Concrete")):
             with self.subTest(name=name):

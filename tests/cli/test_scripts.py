@@ -73,8 +73,7 @@ class Sweep(Sandbox):
     def test_variants_and_what_was_interrupted(self):
         grid = ["variants=1 2", "seed=1"]
         self.sweep(*grid)
-        self.assertEqual(self.index(),
-                         ['seed,variants,folder', '1,1,"seed=1,variants=1"', '1,2,"seed=1,variants=2"'])
+        self.assertEqual(self.index(), ['seed,variants,folder', '1,1,"seed=1,variants=1"', '1,2,"seed=1,variants=2"'])
         spoilt = self.folder / "grid/seed=1,variants=2/variant_0001/dataset.json"
         spoilt.write_text(json.dumps({**json.loads(spoilt.read_text()), "complete": False}))
         self.sweep(*grid)
@@ -96,16 +95,14 @@ class Sweep(Sandbox):
         result = self.sweep("-j2", "sensors.fls.range_max_m=5 0.01 6", "seed=1", code=2)
         self.assertIn("of 3 points these failed", result.stderr)
         self.assertIn("range_min_m must be below range_max_m", result.stderr)
-        self.assertEqual([p.name for p in (self.folder / "grid/failed").iterdir()],
-                         ["seed=1,sensors.fls.range_max_m=0.01.txt"])
+        self.assertEqual([p.name for p in (self.folder / "grid/failed").iterdir()], ["seed=1,sensors.fls.range_max_m=0.01.txt"])
         self.assertEqual(len(self.index()), 3)
 
     def test_mistakes(self):
         """A value reaches neither make nor the shell: nothing runs."""
         marker = self.folder / "ran"
         sign = ": its name and its value must not hold "
-        for argument, message in (
-                ("add_sgma=0", "unknown: add_sgma"), ("add_sigma=0", "SENSOR"), ("-j1", "at least one of"),
+        for argument, message in (("add_sgma=0", "unknown: add_sgma"), ("add_sigma=0", "SENSOR"), ("-j1", "at least one of"),
                 ("MISSION=none.yaml", "none.yaml: no such file"),
                 ("MISSION=my mission.yaml", "MISSION must be one file without blanks"),
                 (f"seed=$(shell touch {marker})1", sign), (f"seed=1';touch {marker};'2", sign), (f"seed=`touch {marker}`", sign),

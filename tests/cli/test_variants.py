@@ -22,18 +22,15 @@ vary:
 """
 TWO = ("--set", "variants=2")
 # The rules, a text of the mission, what it becomes, and words of the message.
-WRONG = (
-    (VARY, "noise.add_sigma", "noise.add_sgma", "mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?"),
+WRONG = ((VARY, "noise.add_sigma", "noise.add_sgma", "mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?"),
     (VARY, "uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]", "mission.yaml:26:", "the first number must not be above the second"),
     (VARY, "uniform: [0.01, 0.2]", "uniform: [-2, -1]", "mission.yaml:26:5", "'add_sigma' must be at least 0"),
     (VARY, "uniform: [0.01, 0.2]", "log_uniform: [0, 1]", "mission.yaml:26:", "'log_uniform' takes numbers above 0"),
     (VARY, ", uniform: [0.01, 0.2]", "", "mission.yaml:26:5", "needs exactly one of: uniform"),
-    (VARY, "sensors.fls.noise.add_sigma", "water.sound_speed_m_s",
-     "mission.yaml:27:5", "'water.sound_speed_m_s' varies twice"),
+    (VARY, "sensors.fls.noise.add_sigma", "water.sound_speed_m_s", "mission.yaml:27:5", "'water.sound_speed_m_s' varies twice"),
     (VARY, "{key: sensors.fls.range_bins, whole: [40, 60]}", "{key: sensors.fls.noise, choice: [{add_sigma: 0.1}]}",
      "mission.yaml:28:5", "'sensors.fls.noise' replaces what is drawn for 'sensors.fls.noise.add_sigma'",
-     "write that rule after this one"),
-    (VARY, "water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
+     "write that rule after this one"), (VARY, "water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
      "mission.yaml:29:5", "'seed' cannot vary", "a seed of its own"),
     (VARY, "sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.1", "mission.yaml:26:5",
      "there is no list 'rpy_deg' with an item '1'", "write the whole list in the mission first"),
@@ -43,8 +40,7 @@ WRONG = (
     (PER_PING, "noise.add_sigma", "range_bins", "mission.yaml:25:5",
      "'sensors.fls.range_bins' cannot be drawn for every ping", "noise.add_sigma", "vehicle.offset_m.0"),
     (PER_PING, "log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5",
-     "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1"),
-    (PER_PING, "within: [-6, 6]", "within: [40, 41]",
+     "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1"), (PER_PING, "within: [-6, 6]", "within: [40, 41]",
      "mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider"),
     (PER_PING, "within: [-6, 6], ", "", "mission.yaml:26:", "a normal draw for every ping needs 'within'"),
     (PER_PING, "choice: [-5, 5]", "choice: [left, 5]", "mission.yaml:28:5", "takes numbers"),
@@ -85,8 +81,7 @@ class Variants(Sandbox):
         self.refused("mission.yaml:", "there is no preset", "randomised/NAME.yaml")
         self.write("rules.yaml", "noise: 3\n")
         self.refused("rules.yaml:", "a list of rules")
-        self.write("rules.yaml", "- {key: noise.mult_sigma, uniform: [0.2, 0.3]}\n"
-                                 "- {key: noise.add_sigma, uniform: [3, 4]}\n")
+        self.write("rules.yaml", "- {key: noise.mult_sigma, uniform: [0.2, 0.3]}\n" "- {key: noise.add_sigma, uniform: [3, 4]}\n")
         self.edit("mission.yaml", ", sensor: fls}", ", per: ping}")
         self.refused("mission.yaml:", "takes the key 'sensor'")
         self.edit("mission.yaml", "rules.yaml, per: ping}", "rules.yaml, sensor: fls}\n  - {preset: sea.yaml}")
@@ -205,8 +200,7 @@ class Variants(Sandbox):
     def test_variants_with_files_of_their_own_are_rendered(self):
         self.write("one/box.gltf", box_gltf())
         self.write("two/box.gltf", box_gltf((2.5, 1.5, 2.0)))
-        self.edit("mission.yaml", "vary:\n", "vary:\n"
-                  "  - {key: scene.file, choice: [one/box.gltf, two/box.gltf]}\n")
+        self.edit("mission.yaml", "vary:\n", "vary:\n" "  - {key: scene.file, choice: [one/box.gltf, two/box.gltf]}\n")
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2")
         self.assertEqual(len({one["drawn"]["scene.file"] for one in self.variants()}), 2)

@@ -115,8 +115,7 @@ class Hostile(Rendered):
 
     def test_descriptions(self):
         sound = json.dumps(self.dataset())
-        for right, wrong, words in (
-                ('"complete": true', '"complete": "yes"', "type must be boolean"),
+        for right, wrong, words in (('"complete": true', '"complete": "yes"', "type must be boolean"),
                 ('"poses": 2', '"poses": 4000000000', "more than ten million poses"),
                 ('"pings": 2', f'"pings": {1 << 60}', "another number of pings of 'fls'"),
                 ('"name": "fls"', '"name": "../fls"', "'../fls', which is not the name of a folder"),

@@ -84,8 +84,7 @@ TEST_CASE_FIXTURE(
         InputError);
 }
 
-// Whatever stands in dataset.json, each command refuses it with a sentence or does its work,
-// and no file next to the dataset changes.
+// Whatever stands in dataset.json, commands refuse it or work, and no file beside it changes.
 TEST_CASE_FIXTURE(MissionInFolder,
                   "dataset file: a sound one changed at random is refused or read") {
     run(mission);

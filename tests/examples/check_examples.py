@@ -16,8 +16,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "consumer"))
 from test_install import run
 
 # The example, the most files that it may touch in lib, and the folder of its own that is not counted.
-EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "simulate/lambert"),
-            ("add_wake", 7, None))
+EXAMPLES = (("add_sonar", 6, None), ("add_stage", 5, None), ("add_echo_model", 4, "simulate/lambert"), ("add_wake", 7, None))
 
 
 def overlay_of(root, example, folder):

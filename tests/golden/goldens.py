@@ -100,8 +100,7 @@ def lines_of(name, folder):
             count, whole = found.setdefault(key, [0, hashlib.sha256()])
             found[key][0] = count + 1
             whole.update(hashlib.sha256(data).digest())
-    return [f"{name} {sensor} {kind} {count} {whole.hexdigest()[:32]}"
-            for (sensor, kind), (count, whole) in sorted(found.items())]
+    return [f"{name} {sensor} {kind} {count} {whole.hexdigest()[:32]}" for (sensor, kind), (count, whole) in sorted(found.items())]
 
 
 class Renderer:

@@ -104,8 +104,7 @@ HardCase full_azimuth() {
             .bounds = {0.08}};
 }
 
-/// A single beam receives both halves equally: half of R H / r. Other sonars: R H / r to port,
-/// nothing to starboard.
+/// A single beam receives half of R H / r; others R H / r to port, nothing to starboard.
 std::vector<float> seam_law(const HardContext& context) {
     const int beams = context.ping.beams;
     const bool both = beams == 1;

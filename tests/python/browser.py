@@ -30,8 +30,7 @@ def opened():
         options = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={profile}",
                    "--window-size=1300,850"]
         window.server += "/session/" + window.send("POST", "/session", {"capabilities": {"alwaysMatch": {
-            "goog:chromeOptions": {"binary": CHROMIUM, "args": options},
-            "goog:loggingPrefs": {"browser": "ALL"}}}})["sessionId"]
+            "goog:chromeOptions": {"binary": CHROMIUM, "args": options}, "goog:loggingPrefs": {"browser": "ALL"}}}})["sessionId"]
         stack.callback(window.send, "DELETE", "")
         yield window
 
@@ -51,8 +50,7 @@ class Browser:
 
     def send(self, method, path, body=None):
         data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(self.server + path, data, method=method,
-                                         headers={"Content-Type": "application/json"})
+        request = urllib.request.Request(self.server + path, data, method=method, headers={"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=120) as answer:
                 return json.load(answer)["value"]

@@ -21,8 +21,7 @@ def box_of(mask, x, y):
     return {x: [columns[0], columns[-1] + 1], y: [rows[0], rows[-1] + 1]}
 
 
-MASKS = {"fan": corner(30, 40, 4, 25), "bins": corner(24, 16, 10, 3), "sss": corner(50, 32, 20, 20),
-         "head": corner(31, 31, 6, 9)}
+MASKS = {"fan": corner(30, 40, 4, 25), "bins": corner(24, 16, 10, 3), "sss": corner(50, 32, 20, 20), "head": corner(31, 31, 6, 9)}
 
 
 def save(path, mask, margin=0):
@@ -38,8 +37,7 @@ def in_picture(mask):
 def objects_of_ping(ping):
     floor = {"id": 1, "name": "floor", "class": "bottom", "box_bins": {"range": [0, 24], "beam": [0, 16]},
              "area_bins": 384, "range_m": 3.0, "contrast_db": None, "visible_share": None, "mask": "0P<", "fan": None}
-    mine = in_picture(MASKS["bins"]) | {
-        "box_bins": box_of(MASKS["bins"], "beam", "range"), "area_bins": int(MASKS["bins"].sum()),
+    mine = in_picture(MASKS["bins"]) | {"box_bins": box_of(MASKS["bins"], "beam", "range"), "area_bins": int(MASKS["bins"].sum()),
         "fan": {key: value for key, value in in_picture(MASKS["fan"]).items() if key in ("box_px", "area_px", "mask")}}
     for key in ("box_px", "area_px"):
         del mine[key]

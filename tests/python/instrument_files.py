@@ -43,8 +43,7 @@ def xtf_ping(samples=(1, 2, 3, 4, 5, 6), layout="H", weight=0, range_m=30.0):
     fields = [(4, "H", 2), (32, "f", 740.0), (196, "f", 4.5)]
     for number in (0, 1):
         at = 256 + number * length
-        fields += [(at, "H", number), (at + 4, "f", range_m), (at + 26, "H", 400), (at + 42, "I", side),
-                   (at + 58, "h", weight)]
+        fields += [(at, "H", number), (at + 4, "f", range_m), (at + 26, "H", 400), (at + 42, "I", side), (at + 58, "h", weight)]
         fields += [(at + 64 + k * struct.calcsize(layout), layout, samples[number * side + k]) for k in range(side)]
     return xtf_record(0, 256 + 2 * length, *fields)
 
@@ -90,12 +89,10 @@ def ek60(frequency=38000.0, steps=(-4000, -8000, -20000), mode=3):
 GAMMA = "law: {kind: gamma}\n"
 BEARINGS = "bearing_first_deg: 14\nbearing_last_deg: -14\n"
 # recording.yaml, a whole file, and the lengths to which it may be cut off and still be whole.
-FORMATS = {
-    "oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
+FORMATS = {"oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
     "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2, {1024 + len(xtf_ping())}),
     "didson": ("kind: imaging\nlogs: FILE\nsound_speed_m_s: 1480\n" + BEARINGS, didson(), {len(didson(frames=1))}),
     "aris": ("kind: imaging\nlogs: FILE\n" + GAMMA + BEARINGS, aris(), {len(aris(frames=1))}),
     "ping360": ("kind: scanning\nlogs: FILE\nsound_speed_m_s: 1500\nhead_first_deg: 90\n" + GAMMA,
                 ping360(100) + ping360(104, is_auto=True), {len(ping360()), len(ping360()) + 1}),
-    "ek60": ("kind: echosounder\nlogs: FILE\n", simrad(b"CON0") + ek60() * 2, {len(simrad(b"CON0") + ek60())}),
-}
+    "ek60": ("kind: echosounder\nlogs: FILE\n", simrad(b"CON0") + ek60() * 2, {len(simrad(b"CON0") + ek60())})}

@@ -68,8 +68,7 @@ class Fans(ToolTest):
         self.succeeds(*self.calibrate(fans, "--azimuth-deg", "60", "--mission", str(self.folder / "made.yaml"), "--report",
                                       str(self.folder / "mine.json")))
         report = json.loads((self.folder / "mine.json").read_text())
-        self.assertIn(f"#   - {{key: sensors.NAME.instrument.receiver.{law}, uniform: [",
-                      (self.folder / "mine.yaml").read_text())
+        self.assertIn(f"#   - {{key: sensors.NAME.instrument.receiver.{law}, uniform: [", (self.folder / "mine.yaml").read_text())
         other, again = (self.render(f"{name}.yaml", 20 + seed) for name in ("true", "mine"))
         return (abs(report["estimates"][f"receiver.{law}"]["value"] / scale - 1), abs(again.mean() / other.mean() - 1),
                 abs(again.std() / other.std() - 1), report["agree"]["held_out"])

@@ -82,8 +82,7 @@ class ComparisonTest(unittest.TestCase):
     def test_same(self):
         # Each pair is called different with a probability of at most 5 %; 4 or more of 10 with one of 0.001.
         laws = [{"is_k": k % 2 == 0, "mixture": 0.5} for k in range(10)]
-        different = sum(not compare_recordings(drawn(2 * k, **law), drawn(2 * k + 1, **law)).is_same
-                        for k, law in enumerate(laws))
+        different = sum(not compare_recordings(drawn(2 * k, **law), drawn(2 * k + 1, **law)).is_same for k, law in enumerate(laws))
         self.assertLess(different, 4)
 
     def test_decibel(self):

@@ -40,8 +40,7 @@ def difference(grey, mask, is_strip=False):
 
 def fan_objects(ping):
     """(id, class, mask, visible share, contrast) of the objects of a fan; the mine moves."""
-    return [(1, "bottom", np.ones((HEIGHT, WIDTH), bool), None, None),
-            (2, "mine", disc(WIDTH, HEIGHT, 6 + ping, 10, 4), 0.8, 6.0),
+    return [(1, "bottom", np.ones((HEIGHT, WIDTH), bool), None, None), (2, "mine", disc(WIDTH, HEIGHT, 6 + ping, 10, 4), 0.8, 6.0),
             (3, "tyre", disc(WIDTH, HEIGHT, 30, 22, 3), 0.05 if ping == 4 else 0.5, -4.0)]
 
 
@@ -69,11 +68,9 @@ def write_dataset(folder, mission="made"):
         waterfall[mask] += 40000
     Image.fromarray(waterfall).save(folder / "sss/waterfall.png")
     listed = [{"id": number, "class": name, "side": side, "mask": counts_of(mask), "range_m": 3.0, "bearing_deg": 90.0,
-               "contrast_db": 5.0, "visible_share": 1.0}
-              for (number, name, mask), side in zip(STRIP, ("port", "starboard"))]
+               "contrast_db": 5.0, "visible_share": 1.0} for (number, name, mask), side in zip(STRIP, ("port", "starboard"))]
     (folder / "sss/objects.json").write_text(json.dumps({"width": COLUMNS, "height": ROWS, "objects": listed}))
-    sensors = [
-        sensor("fls", "imaging", PINGS, range_edges_m=[1.0, 2.0], azimuth_edges_rad=[-0.5, 0.5],
+    sensors = [sensor("fls", "imaging", PINGS, range_edges_m=[1.0, 2.0], azimuth_edges_rad=[-0.5, 0.5],
                fan={"width_px": WIDTH, "height_px": HEIGHT}, files={"fan": "fls/fan/%06d.png", "objects": "fls/objects/%06d.json"}),
         sensor("sss", "sidescan", ROWS, range_edges_m=[1.0, 2.0], pictures=[
             {"per": "sensor", "boxes_of": "sss/waterfall.png", "file": "sss/waterfall.png"}])]
@@ -137,8 +134,7 @@ class Export(tool.ToolTest):
     def test_rules_and_boxes(self):
         for words, expected in ((("--box", "shadow"), {2: [10, 8, 10, 4]}), (("--min-visible-share", "0.9"), {}),
                                 (("--box", "both"), {2: [2, 6, 18, 9], 3: [27, 19, 7, 7]}), (("--min-pixels", "60"), {}),
-                                (("--min-contrast-db", "5"), {2: [2, 6, 9, 9]}),
-                                (("--without", "mine"), {3: [27, 19, 7, 7]})):
+                                (("--min-contrast-db", "5"), {2: [2, 6, 9, 9]}), (("--without", "mine"), {3: [27, 19, 7, 7]})):
             self.export("coco", "--sensor", "fls", *words)
             found = self.coco()[1]["fls-000000.png"]
             self.assertEqual({one["instance_id"]: one["bbox"] for one in found}, expected, words)
@@ -447,8 +443,7 @@ class Export(tool.ToolTest):
             self.refused(text, *words)
         described, facts = self.out / "dataset.json", self.out / "fls/objects/000003.json"
         sound, text = json.loads(described.read_text()), facts.read_text()
-        for path, bad, words in (
-                (described, json.dumps(sound | {"labels": {}}), "has no objects; set output.labels"),
+        for path, bad, words in ((described, json.dumps(sound | {"labels": {}}), "has no objects; set output.labels"),
                 (described, json.dumps(sound | {"poses": "x"}), "'poses' is 'x'"),
                 (described, json.dumps(sound | {"sensors": [sound["sensors"][0] | {"fan": 3}]}), "is damaged"),
                 *((facts, bad, "000003.json: ") for bad in (

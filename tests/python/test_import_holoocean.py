@@ -6,8 +6,7 @@ import re
 from tool import ROOT, ToolTest
 from sonarsim import import_holoocean
 
-SENSORS = [{"sensor_type": "DVLSensor"},
-    {"sensor_type": "ImagingSonar", "sensor_name": "fls", "socket": "SonarSocket", "Hz": 10,
+SENSORS = [{"sensor_type": "DVLSensor"}, {"sensor_type": "ImagingSonar", "sensor_name": "fls", "socket": "SonarSocket", "Hz": 10,
      "location": [0.1, 0, 0], "rotation": [0, 10, 0], "configuration": {
          "Azimuth": 60, "Elevation": 12, "RangeMin": 0.5, "RangeMax": 6, "RangeBins": 48, "AzimuthBins": 32,
          "AddSigma": 0.1, "MultCov": 0.04, "RangeSigma": 0.05, "ScaleNoise": True, "MultiPath": True,
@@ -32,8 +31,7 @@ WRONG = (
 KINDS = {"imaging": ("ImagingSonar", "RaycastImagingSonar", "GPUImagingSonar"),
          "profiling": ("ProfilingSonar", "RaycastProfilingSonar", "GPUProfilingSonar"),
          "sidescan": ("SidescanSonar", "RaycastSidescanSonar", "GPUSidescanSonar"),
-         "echosounder": ("SinglebeamSonar", "RaycastSinglebeamSonar", "SemanticRaycastSinglebeamSonar",
-                         "GPUSinglebeamSonar")}
+         "echosounder": ("SinglebeamSonar", "RaycastSinglebeamSonar", "SemanticRaycastSinglebeamSonar", "GPUSinglebeamSonar")}
 
 
 class HoloOcean(ToolTest):

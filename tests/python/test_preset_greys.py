@@ -20,8 +20,7 @@ output: {{raw: true, fan: false, polar: false}}
 variants: 2
 """
 # By kind: the height above the sand over the range, and pings in a hundredth of the range.
-SCENES = {"imaging": (0.15, 1), "profiling": (0.3, 1), "sidescan": (0.15, 10), "echosounder": (0.5, 10),
-          "scanning": (0.1, 40)}
+SCENES = {"imaging": (0.15, 1), "profiling": (0.3, 1), "sidescan": (0.15, 10), "echosounder": (0.5, 10), "scanning": (0.1, 40)}
 
 
 class PresetGreys(ToolTest):

@@ -163,8 +163,7 @@ class RecordingTest(tool.ToolTest):
             headers = [k for k in range(0, len(content) - 4, 2) if any(content[k:k + 4])]
             for _ in range(150):
                 at = draws.choice(headers)
-                value = draws.choice([b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\0", b"\xff\xff\0\0",
-                                      draws.randbytes(4)])
+                value = draws.choice([b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\0", b"\xff\xff\0\0", draws.randbytes(4)])
                 with self.subTest(name, at=at), warnings.catch_warnings():
                     warnings.simplefilter("ignore", RuntimeWarning)
                     try:
@@ -243,8 +242,7 @@ class RecordingTest(tool.ToolTest):
                 (ARRAYS.replace("imaging", "photo"), "one of imaging, sidescan"), (ARRAYS + "xtf: a\n", "files and xtf"),
                 (ARRAYS.replace("0.5}", "5}"), "'exponent' must be a number from 0.1 to 2"),
                 (ARRAYS.replace("1490", ".nan"), "'sound_speed_m_s' must be"), (ARRAYS.replace("law", "# law"), "'law'"),
-                (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"),
-                (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
+                (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"), (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
                 (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is not YAML"),
                 ("[" * 20000, "is not YAML"), ("- 1", "needs keys"), (ARRAYS.replace("0.1\n", "0\n"), "range_step_m"),
                 ("kind: imaging\nlogs: pings.npy\nsound_speed_m_s: 1\n", "number from 300 to 10000")):

@@ -105,8 +105,7 @@ TEST_CASE("rays and points of the surface together add up to its area") {
 }
 
 TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
-    // A plate of the scene's own, two copies of a sphere in front of it, the second twice as large,
-    // and a third one behind the sonar.
+    // A plate, two copies of a sphere in front of it, one twice as large, a third behind the sonar.
     Scene shared = empty_scene(Eigen::Vector3d(1e4, -2e4, 5.0));
     const std::uint32_t stone = add_material(shared, 0.5F);
     const std::uint32_t steel = add_material(shared, 0.9F);
@@ -178,8 +177,7 @@ TEST_CASE("image errors by hand") {
     CHECK(image_error(image, dark).relative_l1 == 1.0);
 }
 
-// The rays represent a fully visible floor to within rounding, so their image and that of many
-// single points are the same integral.
+// The rays represent a fully visible floor to within rounding, as many single points do.
 TEST_CASE("the calibrated reference agrees with the engines") {
     Scene scene = floor_scene(30.0F, -4.0F, 0.4F, 4);
     add_sphere(scene, {5.0F, 0.5F, -3.5F}, 0.5F, 0, 48);

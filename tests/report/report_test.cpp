@@ -195,8 +195,7 @@ TEST_CASE("multipath rows of a corner are sane, for each sonar that has multipat
 
 TEST_CASE("multipath rows tell a coarse way from a fine one") {
     Mission mission = corner_mission({MultipathMethod::cluster, 1, 5.0});
-    // The tank has a pole and a sphere, whose normals vary. Coarse bins would hold the whole sphere
-    // and hide the difference.
+    // The tank has a pole and a sphere, whose normals vary. Coarse bins would hide that.
     mission.sensors[0].range_bins = 192;
     const std::vector<Json> rows = measure(mission, small_assembly(mission, 3));
     const Json& fine = row_of(rows, 1, 5.0);

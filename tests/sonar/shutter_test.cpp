@@ -46,9 +46,8 @@ struct AmongPlates {
 
 }  // namespace
 
-// The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world: a
-// shear. w P is 2 degrees and w 2 r / c 0.533 degrees, so that a beam has all of a plate in it
-// or none. One beam in five shows a plate.
+// The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world: a shear.
+// w P is 2 degrees and w 2 r / c 0.533 degrees, so that a beam has all of a plate in it or none.
 TEST_CASE_FIXTURE(AmongPlates,
                   "shutter: a fan that yaws shears the picture by its rate times the time") {
     for (const ShutterOrder order : {ShutterOrder::in_turn, ShutterOrder::interleaved}) {

@@ -74,8 +74,7 @@ struct FactorsOfBins {
     Eigen::ArrayXXd sum, weight, min, max;
 };
 
-/// Points of a lattice on the floor ahead of the vehicle, or abeam of it, with no engine: each
-/// counts for the bin it lies in.
+/// Points of a lattice on the floor ahead of the vehicle, or abeam, each in the bin it lies in.
 FactorsOfBins factors_of_bins(const Sonar& sonar, const Scene& scene, const Pose& vehicle,
                               bool side) {
     const View& view = sonar.settings.view;
@@ -278,8 +277,7 @@ TEST_CASE("a second surface has the strength of its texel") {
 }
 
 TEST_CASE("speckle keeps the mean power of fields smaller than a scatterer's cell") {
-    // All images have the same scatterers, so that their sums, over more than 1,000 cells a
-    // ping, differ by less than speckle does.
+    // All images have the same scatterers: sums over 1,000 cells differ by less than speckle.
     const SmallFields fields;
     SonarConfig config = imaging(ModelKind::calibrated).config;
     config.instrument.speckle.mode = SpeckleMode::scene;

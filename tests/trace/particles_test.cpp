@@ -26,8 +26,7 @@ TEST_CASE("particles: they drift, and bubbles rise and begin anew") {
     CHECK((place_at(bubble, 2.0) - Eigen::Vector3d(0.2, 0.0, -5.4)).norm() < 1e-12);
 }
 
-// A wall 8 m ahead, 4 m wide, hides what lies behind it and nothing aside of it: at 12 m its
-// shadow ends 3 m from the axis.
+// A wall 8 m ahead, 4 m wide: at 12 m its shadow ends 3 m from the axis.
 TEST_CASE("particles: those in view that no surface hides") {
     const Scene scene = rectangle_scene({8, -2, -5}, {8, 2, 5}, 0.4F);
     const auto engine = make_rays_engine(scene);

@@ -62,9 +62,8 @@ TEST_CASE("water's surface: a fan that looks ahead sees a part of a ring") {
     }
 }
 
-// Along the track lies an elevation e to either side: over a range dr the strips of both sides
-// have the area 4 sin(e) r^2 dr / y, y the horizontal distance. The second case is at a grazing
-// angle, up to the end of the range.
+// Along the track lies an elevation e to either side: over a range dr the strips of both sides have
+// the area 4 sin(e) r^2 dr / y, y the horizontal distance. The second case is at a grazing angle.
 TEST_CASE("water's surface: a side-scan sonar sees it above") {
     struct Case {
         double below_m, from_m, to_m;

@@ -36,8 +36,7 @@ int met_below(const Caster& caster, std::uint32_t count, int rays) {
 
 }  // namespace
 
-// Embree took the sign of such a component for its octant, but divided by +1e-18: rays of its
-// packet passed through the scene.
+// Embree took such a component's sign for its octant, but divided by +1e-18: rays were lost.
 TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
     const Scene scene = sphere_scene({0, 0, -8}, 1.0F, 1.0F);
     const Caster caster(scene);

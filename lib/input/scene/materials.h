@@ -23,9 +23,8 @@ struct MaterialTable {
 /// Speed of Sound m/s`. Further columns may follow, in any order: the members of Material from
 /// `lambert_db` on, by their names. An empty cell, like a column that is missing, leaves the
 /// default of Material. InputError with file:line for a header with other columns, for a wrong
-/// number of fields, for a number out of its limits (core/input_limits.h has those of densities
-/// and speeds), for a sea bed with neither a grain size nor all numbers that it needs, and for a
-/// material that occurs twice.
+/// number of fields, for a number out of its limits (core/input_limits.h has those of densities and
+/// speeds), for a sea bed with neither a grain size nor all its numbers, and for a repeated one.
 MaterialTable read_materials(const std::filesystem::path& path);
 MaterialTable parse_materials(std::string_view text, const std::string& file_name);
 

@@ -19,8 +19,7 @@ using Trajectory = std::vector<TimedPose>;
 inline constexpr std::size_t max_poses = 10'000'000;
 
 /// Interpolates the attitude at constant angular rate along the shorter arc; `fraction` runs from 0
-/// (`from`) to 1 (`to`). Both are unit quaternions. Half a turn has no shorter arc: its direction
-/// is deterministic but arbitrary.
+/// (`from`) to 1 (`to`). Both are unit quaternions. Half a turn takes either arc.
 Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to,
                          double fraction);
 

@@ -109,21 +109,13 @@ struct DirectEchoes {
     PhiloxKey draws;
     Echoes echoes = {};  ///< the samples that were added last
 
-    /// Eq. 4-8. Returns the number of echoes out of range.
-    std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
-        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
-        add_range_noise(echoes, range_noise, draws);
-        return accumulate(echoes, bins, sums);
-    }
-
-    /// Adds the parts at normal incidence.
-    void add_normal(std::span<const Sample> all, float min_cosine, BinSums& sums) {
-        const std::vector<Sample> samples = near_normal_incidence(all, min_cosine);
+    /// Eq. 4-8; with `min_cosine` the parts at normal incidence. Returns the number out of range.
+    std::uint64_t add(std::span<const Sample> samples, BinSums& sums, float min_cosine = 0.0F) {
         std::vector<std::uint32_t> ends;
         direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, &ends);
-        cut_to_normal_incidence(samples, ends, min_cosine, echoes);
+        if (min_cosine > 0.0F) cut_to_normal_incidence(samples, ends, min_cosine, echoes);
         add_range_noise(echoes, range_noise, draws);
-        accumulate(echoes, bins, sums);
+        return accumulate(echoes, bins, sums);
     }
 };
 
@@ -157,7 +149,8 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
         }
         if (wanted_streaks.exist()) {
             areas.add(sums);
-            direct.add_normal(traced.samples.beam(j), wanted_streaks.min_cosine, areas.normal);
+            const float cosine = wanted_streaks.min_cosine;
+            direct.add(near_normal_incidence(traced.samples.beam(j), cosine), areas.normal, cosine);
         }
         ping.counts.out_of_range += accumulate(bounced.echoes, bounced.beam_begin[j],
                                                bounced.beam_begin[j + 1], bins, sums);

@@ -82,8 +82,7 @@ def bucket(draw):
                    (r - wall, high), (foot - wall, wall), (0, wall)], 28)
     lean = draw(20, 160)
     handle = [(r * math.cos(a), -r * math.sin(a) * math.cos(math.radians(lean)),
-               high - 0.02 + r * math.sin(a) * math.sin(math.radians(lean)))
-              for a in (math.pi * k / 14 for k in range(15))]
+               high - 0.02 + r * math.sin(a) * math.sin(math.radians(lean))) for a in (math.pi * k / 14 for k in range(15))]
     return resting([part("shell", draw.one_of(["polyethylene", "steel"]), shell),
                     part("handle", "steel", tube(handle, 0.004, 6))], lying(draw, 0.6), draw(0, 0.01), draw.whole(1, 9999))
 

@@ -13,8 +13,7 @@ std::vector<float> mean_echoes(const Scene& scene, const View& view, Samples sam
     return image_of_traced(PaperModel{}, view, traced, direct_echoes_alone, {}, scene);
 }
 
-/// A many-sided tapered stay that hangs upright in the picture and ends in view. Appends the areas
-/// of the faces, m^2.
+/// A tapered stay, upright in the picture, that ends in view. Appends its faces' areas, m^2.
 void add_stay(Scene& scene, Draws& draws, std::vector<float>& areas) {
     const float azimuth = draws.between(-0.45F, 0.45F);
     const Eigen::Vector3f ahead(std::cos(azimuth), std::sin(azimuth), 0.0F);
@@ -47,8 +46,7 @@ void add_stay(Scene& scene, Draws& draws, std::vector<float>& areas) {
 }
 
 /// The largest share of its light by which a beam is off the truth [range_bins, beams]. A dim beam
-/// counts as one that is as bright as the mean; beams of few bins are left out, where a sliver in
-/// another bin decides.
+/// counts as one that is as bright as the mean; beams of few bins are left out.
 double worst_beam(const std::vector<float>& image, const Reference& reference, const View& view) {
     const std::vector<float>& truth = reference.intensity;
     const double whole = total(truth);

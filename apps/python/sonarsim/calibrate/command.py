@@ -220,8 +220,7 @@ def text_of(start, keys, source, more=()):
     text = start.text
     for key, (value, comment) in keys.items():
         text = with_key(text, key, value, comment, start.file)
-    return "".join(f"# {line}".rstrip() + "\n" for line in (
-        f"Fitted by sonarsim calibrate to {source}.",
+    return "".join(f"# {line}".rstrip() + "\n" for line in (f"Fitted by sonarsim calibrate to {source}.",
         "`fit`: a number that was estimated, with its interval of 95 %; `file`: shape and law of the pings.", *more,
         "All others are those of the start, whose own head follows.", "")) + text
 

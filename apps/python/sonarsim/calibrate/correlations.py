@@ -130,8 +130,7 @@ def predicted_correlations(beam, sines, statistics):
     """The mean correlations of log powers 1 to LAGS beams apart, by the keys of a beam."""
     pedestal, half_power = taper(beam["side_lobe_db"])
     wavelengths = half_power / np.sin(0.5 * np.radians(beam["width_deg"]))
-    return np.array([statistics.correlation(beam_correlation(pedestal, u * wavelengths)).mean()
-                     for u in differences(sines)])
+    return np.array([statistics.correlation(beam_correlation(pedestal, u * wavelengths)).mean() for u in differences(sines)])
 
 
 def fit_array(measured, covariance, units, sines, statistics):

@@ -135,8 +135,7 @@ def fit_pulse_and_beams(recording, fit):
         fit.notes.append("pulse.resolution_m: no rows show noise alone, so the interval holds pulses of both")
     beams = fit.instrument["beam"] if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS else None
     if beams:
-        found = fit_array(*patches.beam_covariance(chosen, not by_echoes), np.sin(recording.bearing_rad),
-                          fit.law.statistics)
+        found = fit_array(*patches.beam_covariance(chosen, not by_echoes), np.sin(recording.bearing_rad), fit.law.statistics)
         for key, number in zip(("beam.width_deg", "beam.side_lobe_db"), found or ()):
             fit.set(key, number)
         if found is None:

@@ -17,8 +17,7 @@ struct HeightGrid {
 
     /// Heights between those of the grid, which stay, by cubic convolution (Keys 1981, a = -1/2:
     /// exact for parabolas): `across` - 1 between two columns, `down` - 1 between two rows. Beyond
-    /// the border and an unknown height the surface continues straight. A height between two of
-    /// which one is unknown is unknown.
+    /// the border and unknown heights it continues straight. A height beside one is unknown.
     HeightGrid interpolated(std::size_t across, std::size_t down) const;
 };
 

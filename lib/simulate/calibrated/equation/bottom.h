@@ -10,9 +10,8 @@
 
 namespace sonarsim {
 
-/// The backscatter of a material per unit of area and solid angle: the scattering cross-section
-/// sigma, whose 10 log is the backscattering strength S. It follows either Lambert's rule and
-/// facets or, for a sea bed, tables.
+/// The backscatter of a material per unit of area and solid angle: the cross-section sigma, whose
+/// 10 log is the strength S, by Lambert's rule and facets or a sea bed's tables.
 struct Backscatter {
     float lambert = 0.0F;         ///< mu of Lambert's rule, sigma = mu sin^2(grazing angle)
     float facet = 0.0F;           ///< sigma of the specular echo at normal incidence
