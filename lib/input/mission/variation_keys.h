@@ -72,7 +72,7 @@ void describe(auto& v, VaryConfig& c) {
     v.choice("per", c.per, vary_pers,
              "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
              "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
-             "noise and streaks, and the offset of the vehicle");
+             "noise and streaks, and the offset and turn of the vehicle");
     v.array("uniform", c.uniform, any, "the least and the largest number");
     v.array("log_uniform", c.log_uniform, any,
             "the least and the largest number; each decade is equally likely");

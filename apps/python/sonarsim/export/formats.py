@@ -210,7 +210,7 @@ configs:
 # {mission}
 
 {pictures} pictures with boxes that sonarsim {version} rendered, {seed}. Licence: {licence}. `objects` of a row has
-`bbox` (x, y, width and height in pixels), `category` and `id`, the number of the thing. Categories: {classes}.
+`bbox` (x, y, width and height in pixels), `area` (pixels of its mask), `category` and `id`, the number of the thing. Categories: {classes}.
 `sha256sum -c SHA256SUMS` checks the files.
 """
 
