@@ -68,7 +68,7 @@ void sync_file_system(const std::filesystem::path& folder);
 [[noreturn]] void throw_errno(const char* what, const std::filesystem::path& path);
 
 /// A new temporary name, ".<name>.<16 random hex digits>.part". A hidden sibling of `path`: a
-/// rename stays in one file system. Processes in two containers may have one id.
+/// rename stays in one file system. Random: processes in two containers may have one id.
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 /// True if temporary_name() made this name.

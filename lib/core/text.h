@@ -65,7 +65,8 @@ inline std::string without_copy_number(const std::string& name) {
 std::string_view known_format(std::string_view bytes);
 
 /// True if arrays and objects of a JSON text are nested more than `levels` deep. Recursive
-/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. Any text.
+/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. It may be
+/// invalid.
 bool is_nested_deeper(std::string_view text, int levels);
 
 /// Two hexadecimal digits for each byte.

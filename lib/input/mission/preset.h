@@ -32,7 +32,7 @@ void fill_in_rules(YamlNode& mission, const std::filesystem::path& base_folder);
 
 /// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
 /// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
-/// paths start at `base_folder`. InputError for an unreadable file, no section or a preset in it.
+/// paths start at `base_folder`. InputError for a file that is unreadable or names a preset.
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder);
 
 }  // namespace sonarsim

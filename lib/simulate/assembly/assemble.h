@@ -59,7 +59,7 @@ void check_places(const Mission& mission, SceneStore& models);
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 
-/// The engine of a mission, over the trees that its assembly has made. The latter outlives it.
+/// The engine of a mission, over the trees of its assembly, which must outlive it.
 std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly);
 
 /// A ping of a dataset: sensor by its index in Mission::sensors, pose by its index on the

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// The profile of sound speed of a mission that has one, in the world. InputError by the file.
+/// The profile of sound speed of a mission that has one, in the world. InputError for its file.
 SoundProfile sound_profile(const Mission& mission);
 
 /// Sets the profile of sound speed of the scene and of the sonars, for soundings.

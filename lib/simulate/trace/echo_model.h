@@ -50,7 +50,7 @@ struct EchoModelInfo {
     /// The factor from the direct echoes of surface_echoes() within a cell to their value in the
     /// image, by range bin; empty: the image has no such unit.
     std::vector<float> echo_gain = {};
-    /// White of pictures if `output.full_scale` is auto; 0: it follows from pings.
+    /// The value that is white if `output.full_scale` is auto; 0: it follows from pings.
     double white = 0.0;
     /// The transmissions of add_behind_walls(), if the model is prepared for a scene.
     std::vector<float> wall_transmissions = {};

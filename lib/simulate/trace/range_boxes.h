@@ -27,7 +27,7 @@ inline RangeBins range_bins(const View& view) {
             .count = view.range_bins};
 }
 
-/// Echoes of surface, each spread evenly over [range - half, range + half]. Loops vectorise.
+/// Echoes of surface, spread evenly over [range - half, range + half]; arrays, for vector loops.
 struct RangeBoxes {
     std::vector<float> range_m;    ///< slant range of the middle of the extent
     std::vector<float> half_m;     ///< half its extent in range

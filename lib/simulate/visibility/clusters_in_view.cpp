@@ -97,7 +97,7 @@ ClusterMesh make_clusters(const MeshView& from) {
     return mesh;
 }
 
-/// Appends ClustersInView::own_outward of a mesh. Within the margin of a box counts as inside.
+/// Appends ClustersInView::own_outward of a mesh. A sensor within the margin counts as inside.
 void add_outward(const ClusterMesh& mesh, const Eigen::Vector3f& sensor, float margin_m,
                  std::vector<float>& out) {
     out.reserve(out.size() + mesh.solids.size());

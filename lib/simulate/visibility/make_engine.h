@@ -26,7 +26,7 @@ struct EngineSettings {
 /// too small for the scene, and std::runtime_error when memory does not suffice.
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
 
-/// Error message, beginning with the mission's key, if the engine lacks this scene; else empty.
+/// Error message, beginning with the mission's key, if it cannot take this scene; else empty.
 std::string unsupported(const EngineSettings& settings, const Scene& scene);
 
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.

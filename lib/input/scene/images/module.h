@@ -29,7 +29,7 @@ using SonarsimImageStart = float* (*)(void* user, const SonarsimImageHead* head)
 
 /// Reads the first image of a file of `format` "png", "tiff" or "openexr" and opens no other file:
 /// rows from the top, in them pixels from the left, in them channels. Whole numbers have their
-/// value, not a share of the largest. Returns 0, or 1 with the reason in `error`, with a zero.
+/// value, not a share of the largest. Returns 0, or 1 with the reason in `error`, zero-terminated.
 using SonarsimReadImage = int (*)(const char* format, const char* file, SonarsimImageStart start,
                                   void* user, char* error, std::size_t error_size);
 }
