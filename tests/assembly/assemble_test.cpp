@@ -1,8 +1,11 @@
 #include "simulate/assembly/assemble.h"
 
+#include <regex>
+
 #include "input/mission/parse.h"
 #include "output/dataset/metadata.h"
 #include "scene/gltf/builder.h"
+#include "simulate/assembly/poses.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
 #include "support/small_mission.h"
@@ -152,6 +155,26 @@ TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
         "materials: materials.csv}"};
     for (const TimedPose& pose : assemble(disk.load(lines, bed)).trajectory)
         CHECK(pose.T_world_vehicle.translation.z() == approx(-9.0));
+    // A cliff of 10 m at x = 5 m is climbed without a step: 0.1 m apart, the poses rise by little.
+    const Mission often =
+        disk.load(std::regex_replace(lines, std::regex("rate_hz: 1"), "rate_hz: 10"));
+    Surface cliff;
+    for (const double z : {-20.0, -10.0}) {
+        const double x = z < -15.0 ? -99.0 : 5.0;
+        const auto k = static_cast<std::uint32_t>(cliff.vertices.size());
+        for (const double y : {-99.0, 99.0})
+            cliff.vertices.insert(cliff.vertices.end(), {{x, y, z}, {x + 104.0, y, z}});
+        cliff.triangles.insert(cliff.triangles.end(), {{k, k + 1, k + 3}, {k, k + 3, k + 2}});
+    }
+    const Bottom bottom(cliff);
+    Trajectory poses = poses_of(often.trajectory);
+    keep_altitude(often, &bottom, poses);
+    for (std::size_t i = 1; i < poses.size(); ++i)
+        CHECK(std::fabs(poses[i].T_world_vehicle.translation.z() -
+                        poses[i - 1].T_world_vehicle.translation.z()) < 0.5);
+    CHECK(std::ranges::max(poses, {}, [](const TimedPose& p) {
+              return p.T_world_vehicle.translation.z();
+          }).T_world_vehicle.translation.z() == approx(-7.0));
 }
 
 TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {

@@ -90,8 +90,7 @@ def gltf(nodes, meshes, materials=("Concrete",)):
         out.append({"primitives": [{"attributes": {"POSITION": len(accessors) - 2},
                                     "indices": len(accessors) - 1, "material": material}]})
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
-    return json.dumps({
-        "asset": {"version": "2.0"}, "nodes": nodes, "meshes": out, "materials": [{"name": name} for name in materials],
+    return json.dumps({"asset": {"version": "2.0"}, "nodes": nodes, "meshes": out, "materials": [{"name": name} for name in materials],
         "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(data), "uri": uri}]})
 
 

@@ -51,8 +51,7 @@ class Texts(Sandbox):
         self.assert_refused(self.run_sonarsim("keys", "nose"), "no key has 'nose' in its path")
 
     def test_the_pages_show_the_tables_of_the_program(self):
-        for page, table, command in (("mission.md", "keys", [SONARSIM, "keys"]),
-                                     ("warnings.md", "warnings", [SONARSIM, "warnings"]),
+        for page, table, command in (("mission.md", "keys", [SONARSIM, "keys"]), ("warnings.md", "warnings", [SONARSIM, "warnings"]),
                                      ("calibrated.md", "presets", [ROOT / "scripts/preset_table.sh", SONARSIM])):
             marks = rf"<!-- begin {table} -->\n\n(.*)\n<!-- end {table} -->"
             found = re.search(marks, (ROOT / "docs" / page).read_text(), re.DOTALL)

@@ -7,8 +7,7 @@ import shutil
 import sys
 import tempfile
 
-from sandbox import (IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, grid_mesh, mission_of, path_csv, run_with,
-                     sheet_mesh)
+from sandbox import (IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, csv_of, gltf, grid_mesh, mission_of, path_csv, run_with, sheet_mesh)
 
 run_with("numpy")
 PACKAGES = ROOT / "apps/python"
@@ -182,8 +181,7 @@ class DrawnScene:
             centre = np.array([r * np.cos(azimuth), r * np.sin(azimuth), draw.uniform(-2, 2)])
             self.add(f"box_{k}", centre, box_mesh(size[[0, 2, 1]]), lambda p, c=centre, h=size: self.of_box(p, c, h))
             centre = centre + draw.uniform(-1.5, 1.5, 3) * [1, 1, 0.5]
-            self.add(f"ball_{k}", centre, self.ball(size[0]),
-                     lambda p, c=centre, h=size[0]: np.abs(np.linalg.norm(p - c, axis=1) - h))
+            self.add(f"ball_{k}", centre, self.ball(size[0]), lambda p, c=centre, h=size[0]: np.abs(np.linalg.norm(p - c, axis=1) - h))
 
     def add(self, name, centre, mesh, distance):
         x, y, z = centre

@@ -133,8 +133,7 @@ class DocumentedCommands(Clone):
             (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
             (self.folder / name).chmod(0o755)
         result = subprocess.run([self.clone / "scripts/setup.sh"], text=True, check=True, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, env={"SONARSIM_BUILD": "no",
-                                                               "PATH": f"{self.folder}:{os.environ['PATH']}"})
+                                stderr=subprocess.STDOUT, env={"SONARSIM_BUILD": "no", "PATH": f"{self.folder}:{os.environ['PATH']}"})
         self.assertRegex(result.stdout, r"\nsudo apt-get update .*\nsudo env .* apt-get install .* g\+\+ cmake ")
 
 

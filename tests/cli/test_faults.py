@@ -61,8 +61,7 @@ class FaultyDisk(Faults):
         self.assertEqual(digest(self.out), self.whole)
         # Four kinds of sonar with all their files: fewer would mean that the disk is not asked.
         self.assertEqual({call.split()[0] for call in calls},
-                         {"open", "write", "pwrite", "ftruncate", "rename", "link", "mkdir", "close", "fsync",
-                          "fdatasync", "syncfs"})
+                         {"open", "write", "pwrite", "ftruncate", "rename", "link", "mkdir", "close", "fsync", "fdatasync", "syncfs"})
         self.assertGreater(len(calls), self.FEWEST_CALLS)
         for expected, at in ((BEGIN, calls.index(BEGIN[0])), (CHECKPOINT, calls.index(CHECKPOINT[1]) - 1),
                              (END, len(calls) - len(END) - 1)):

@@ -203,8 +203,7 @@ class Seabed(Composed):
         self.assert_shards_agree()
 
     def test_its_files_are_the_ground_of_the_next_mission(self):
-        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3100\nmud,1150,1470\n"
-                   "sand,1900,1700\n")
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3100\nmud,1150,1470\n" "sand,1900,1700\n")
         self.write("mission.yaml", BED.replace("labels: true", "labels: [clean]").replace("cell_m: 0.2", "cell_m: 0.1").replace(
             "    material: Concrete\n", "    sediments: [{material: sand, share: 1}, {material: mud, share: 1}]\n"
             "    patch_m: 1\n"))

@@ -57,8 +57,7 @@ class Inspect(Sandbox):
         for name, *strengths in rows[start + 2:start + 7]:
             self.assertEqual(reported[name], strengths, name)
         self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
-        self.assert_refused(self.run_sonarsim("inspect", "beds.csv"),
-                            "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
+        self.assert_refused(self.run_sonarsim("inspect", "beds.csv"), "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
 
 
 def pyramid(length):
@@ -89,8 +88,7 @@ class New(Sandbox):
     def test_an_obj_in_millimetres_with_z_up(self):
         self.write("cone.obj", obj(*pyramid(600), "usemtl Hull_Wood.001\n"))
         self.assert_a_mission("cone.obj", "units: mm, up: z", "# guess: the file is 1200 m long: millimetres",
-                              "material Hull_Wood: wood\n", "# guess: the numbers of wood\nHull_Wood,720,4000,",
-                              "\nsand,1900,1650,")
+                              "material Hull_Wood: wood\n", "# guess: the numbers of wood\nHull_Wood,720,4000,", "\nsand,1900,1650,")
         whole = {path: path.read_bytes() for path in self.folder.glob("cone*")}
         self.assert_refused(self.run_sonarsim("new", "cone.obj"), "cone.yaml: is there already", "--out")
         (self.folder / "cone.yaml").unlink()
@@ -255,7 +253,6 @@ class Report(Sandbox):
         for arguments, words in (((), ""), (("mission.yaml", "--hard"), "unknown option"), (("none.yaml",), "none.yaml"),
                 (("mission.yaml", "--engines", "sonar"), ""),
                 (("mission.yaml", "--set", "variants=2", *QUICK), "this mission has variants"),
-                (("mission.yaml", *octree, *QUICK), "--engines: no setting"),
-                (("mission.yaml", *profile, *QUICK), "water.profile")):
+                (("mission.yaml", *octree, *QUICK), "--engines: no setting"), (("mission.yaml", *profile, *QUICK), "water.profile")):
             with self.subTest(arguments=arguments):
                 self.assert_refused(self.run_sonarsim("report", *arguments), words)

@@ -220,8 +220,7 @@ class Objects(Sandbox):
 
     def test_what_is_refused(self):
         labels = "labels: {background: [none]}\n"
-        for old, new, *fragments in (
-                (labels, "labels: {background: [wals]}\n", "there is no class 'wals' (did you mean 'walls'?)"),
+        for old, new, *fragments in ((labels, "labels: {background: [wals]}\n", "there is no class 'wals' (did you mean 'walls'?)"),
                 (labels, "labels: {background: []}\n", "'background' names classes, auto or none"),
                 (labels, "labels: {mask: silhouette}\n", "unknown mask 'silhouette'", "outline, echo"),
                 ("labels: true", "fan: false, labels: [fan]", "'fan'", "output.fan: true")):

@@ -264,8 +264,7 @@ class Torch(Package):
         for variants, shard, expected in ((VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
                 (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]), ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
             self.write("mission.yaml", MISSION + variants)
-            data = module.PingDataset(self.folder / "mission.yaml", shard=shard,
-                                      transform=lambda ping: (ping.variant, ping.number))
+            data = module.PingDataset(self.folder / "mission.yaml", shard=shard, transform=lambda ping: (ping.variant, ping.number))
             self.assertEqual(len(data), len(expected))
             for workers in range(5):
                 found = []

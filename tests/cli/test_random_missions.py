@@ -174,8 +174,7 @@ def is_said_before(folder):
     if done.returncode != 0:
         return "out of memory" in done.stderr
     found = json.loads(done.stdout)
-    seconds = sum(s["seconds_per_ping"] * s["pings"] for s in found.get("sensors", {}).values()
-                  if s["seconds_per_ping"] is not None)
+    seconds = sum(s["seconds_per_ping"] * s["pings"] for s in found.get("sensors", {}).values() if s["seconds_per_ping"] is not None)
     too_large = any(warning["number"] == "W26" for warning in found.get("warnings", []))
     return too_large or seconds > MAX_CPU_S / 3
 

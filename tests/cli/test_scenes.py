@@ -18,8 +18,7 @@ CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      r
 
 
 def text_stl(points, faces):
-    return "solid crate\n" + "".join(
-        "facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(points[k]) for k in f) +
+    return "solid crate\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(points[k]) for k in f) +
         "endloop\nendfacet\n" for f in faces) + "endsolid crate\n"
 
 
@@ -37,8 +36,7 @@ class Objects(Composed):
         half = math.sqrt(0.5)
         self.write("whole.gltf", gltf([{"name": "floor", "mesh": 0}, {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
              {"name": "b", "mesh": 1, "translation": [6.5, 0.75, 0.5], "scale": [1.5, 1.5, 1.5]},
-             {"name": "c", "mesh": 1, "translation": [5.0, 0.625, 2.5],
-              "rotation": [0, half, 0, half]}], [sheet_mesh(), box_mesh()]))
+             {"name": "c", "mesh": 1, "translation": [5.0, 0.625, 2.5], "rotation": [0, half, 0, half]}], [sheet_mesh(), box_mesh()]))
         self.scene(head="  file: whole.gltf\n  materials: materials.csv\n")
         whole = self.assert_images()
         crates = ("{name: a, file: crate.gltf, position_m: [4.25, 1.125, 0.5]}",
@@ -162,8 +160,7 @@ class Copies(Composed):
         """Beside 45 plates of 100,000 triangles what has one file is kept once: one mesh and three transforms are within
         rounding the picture of three crates, each of a file of its own. Few triangles are copied."""
         self.write("plate.gltf", gltf([{"name": "plate", "mesh": 0}], [sheet_mesh(half=0.2, cells=224)]))
-        plates = [f"{{name: p{k}, class: plate, file: plate.gltf, position_m: [{-8 + k % 5}, {k // 5 - 4}, 0.5]}}"
-                  for k in range(45)]
+        plates = [f"{{name: p{k}, class: plate, file: plate.gltf, position_m: [{-8 + k % 5}, {k // 5 - 4}, 0.5]}}" for k in range(45)]
         self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
         own = [f"crate{k}.gltf" for k in range(3)]
         for name in own:

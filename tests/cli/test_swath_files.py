@@ -43,8 +43,7 @@ def read_xtf(data):
         side = at + 256
         for _ in range(channels):
             count, = struct.unpack_from("<I", data, side + 42)
-            ping["sides"].append((*struct.unpack_from("<H2xff4xff", data, side),
-                                  struct.unpack_from(f"<{count}H", data, side + 64)))
+            ping["sides"].append((*struct.unpack_from("<H2xff4xff", data, side), struct.unpack_from(f"<{count}H", data, side + 64)))
             side += 64 + 2 * count
         pings.append(ping)
         at += size

@@ -60,8 +60,7 @@ class Variants(Sandbox):
         self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
             dataset = self.dataset(self.out / one["folder"])
-            self.assertEqual((dataset["complete"], dataset["seed"], dataset["variant"]["drawn"]),
-                             (True, one["seed"], one["drawn"]))
+            self.assertEqual((dataset["complete"], dataset["seed"], dataset["variant"]["drawn"]), (True, one["seed"], one["drawn"]))
             self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
             self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
         # One alone, and fewer of them.
@@ -243,8 +242,7 @@ class Variants(Sandbox):
         self.assertEqual(names, [["walls", "threat", "tyre", "drum", "buoy"]] * 8)
 
     def test_a_variant_without_room_is_found_before_the_first(self):
-        self.scatter("vary:", "  - {key: scene.scatter.2.spacing_m, choice: [0, 3]}",
-                     "  - {key: scene.scatter.2.count, choice: [2]}")
+        self.scatter("vary:", "  - {key: scene.scatter.2.spacing_m, choice: [0, 3]}", "  - {key: scene.scatter.2.count, choice: [2]}")
         self.refused("finds no room in 1000 tries", "the bottom lies from (-2, -2) to (2, 2)")
 
 

@@ -190,8 +190,7 @@ class ComparisonTest(unittest.TestCase):
     def test_extremes(self):
         """Tiny, empty and huge recordings are compared or refused."""
         random = np.random.default_rng(6)
-        for kind, shape in (("imaging", (20, 9, 3)), ("imaging", (9, 70, 24)), ("sidescan", (40, 60, 2)),
-                            ("echosounder", (3, 5, 1))):
+        for kind, shape in (("imaging", (20, 9, 3)), ("imaging", (9, 70, 24)), ("sidescan", (40, 60, 2)), ("echosounder", (3, 5, 1))):
             for scale in (0.0, 1.0, 1e36):
                 recordings = [Recording(kind, Law("amplitude", full_value=1.0), range_step_m=0.1,
                                         bearing_rad=0.01 * np.arange(shape[2]) if kind == "imaging" else None,

@@ -313,8 +313,7 @@ class Export(tool.ToolTest):
         """An imagefolder: a row of metadata.jsonl for each picture, boxes as in COCO, a card with a head in YAML."""
         self.export("coco", "--sensor", "fls")
         found = self.coco()[1]
-        self.export("hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6", "--licence", "cc-by-4.0",
-                    "--sensor", "fls")
+        self.export("hf", "--split", "train=0.5,test=0.5", "--gap", "0", "--rounds", "6", "--licence", "cc-by-4.0", "--sensor", "fls")
         head, text = (self.dest / "README.md").read_text().removeprefix("---\n").split("\n---\n")
         self.assertRegex(head, "^license: cc-by-4.0\n")
         self.assertIn("data_dir: data", head)
@@ -378,8 +377,7 @@ class Export(tool.ToolTest):
         found = self.coco()[1]
         self.assertEqual(sorted(found), [f"sss-waterfall-y{top:05}-x00000.png" for top in (0, 16, 32, 44)])
         for top in (0, 16, 32, 44):
-            pieces = {number: mask[top:top + 16] for number, _, mask in STRIP
-                      if mask[top:top + 16].sum() >= max(1, 0.2 * mask.sum())}
+            pieces = {number: mask[top:top + 16] for number, _, mask in STRIP if mask[top:top + 16].sum() >= max(1, 0.2 * mask.sum())}
             shown = found[f"sss-waterfall-y{top:05}-x00000.png"]
             self.assertEqual([one["instance_id"] for one in shown], list(pieces))
             for one in shown:
