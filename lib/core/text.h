@@ -64,9 +64,8 @@ inline std::string without_copy_number(const std::string& name) {
 /// The format of a file by its first bytes, as "a .glb mesh", for messages; "": unknown.
 std::string_view known_format(std::string_view bytes);
 
-/// True if arrays and objects of a JSON text are nested more than `levels` deep. Recursive
-/// functions copy, compare and write a JSON tree, so a deep one exhausts the stack. It may be
-/// invalid.
+/// True if arrays and objects of a JSON text, valid or not, are nested more than `levels` deep.
+/// Recursive functions copy, compare and write a JSON tree: a deep one exhausts the stack.
 bool is_nested_deeper(std::string_view text, int levels);
 
 /// Two hexadecimal digits for each byte.

@@ -56,7 +56,7 @@ int times_left(std::span<const std::array<Eigen::Vector3d, 3>> part, std::size_t
 /// True unless one of many points of a closed part has a winding number beside it other than 0
 /// outside and 1 within: the part crosses itself, or some of it is inside out.
 bool is_plain(std::span<const Eigen::Vector3f> vertices, const MeshPart& part, double outward) {
-    constexpr int points = 64;
+    constexpr int points = 64;  // finds a twentieth of the surface in 96 of 100 cases
     // A rotation, so that few models have a face along its axes.
     const Eigen::Matrix3d axes = (Eigen::Matrix3d() << 2, 3, 6, 3, -6, 2, 6, 2, -3).finished() / 7;
     std::vector<std::array<Eigen::Vector3d, 3>> placed;

@@ -195,7 +195,7 @@ ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
     ClustersInView out{local_pose(T_world_sensor, scene_.origin), own_, {}, {}, {}, {}};
     T_world_sensor.translation -= scene_.origin;
     const ViewVolume volume(view, T_world_sensor);
-    constexpr float margin = 1e-4F;
+    constexpr float margin = 1e-4F;  // ten times what strips leave out before the sonar
     const float margin_m = margin * static_cast<float>(view.range_max_m);
     add_outward(own_, out.pose.position, margin_m, out.own_outward);
     ClusterPlacer placer(volume, own_.facets.size(), margin_m, out);

@@ -20,6 +20,7 @@ constexpr int columns_along_track = 4;
 // A bent ray is cast as chords that are off by this share of a bin at most.
 constexpr double sag_by_bin = 0.25;
 constexpr double sag_of_sight_lines_m = 0.01;
+constexpr int max_bent_surfaces = 8;  // chosen: each costs a cast of all chords
 
 class RaysEngine final : public VisibilityEngine {
   public:
@@ -44,7 +45,7 @@ class RaysEngine final : public VisibilityEngine {
                        const UseSurfaces& use) const override {
         if (!scene().sound_profile)
             return VisibilityEngine::pass_surfaces(T_world_sensor, rays, reach_m, use);
-        pass_bent(T_world_sensor, rays, reach_m, 8, use);
+        pass_bent(T_world_sensor, rays, reach_m, max_bent_surfaces, use);
     }
 
     std::vector<bool> visible(const Pose& T_world_sensor,
