@@ -1,11 +1,18 @@
 #include "run/job/variants.h"
 
-#include <future>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "core/build_info.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/ordered_pipeline.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "output/dataset/metadata.h"
@@ -100,11 +107,81 @@ std::vector<int> unfinished(const Variants& variants, const RenderOptions& optio
     return todo;
 }
 
-void add_warnings(const Mission& variant, std::vector<Warning> found, RenderSummary& all) {
-    for (Warning& warning : found)
-        warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
-    append(all.warnings, std::move(found));
-}
+/// Renders variants, two at a time: while one is assembled or ends, the pings of the other use the
+/// threads.
+class VariantQueue {
+  public:
+    /// All arguments must outlive it. `assembled` is called for one variant at a time, in order.
+    VariantQueue(const Variants& variants, const std::vector<int>& todo, SceneStore& models,
+                 const VariantCallback& assembled, const ProgressCallback& progress,
+                 RenderSummary& all)
+        : variants_(variants),
+          todo_(todo),
+          models_(models),
+          assembled_(assembled),
+          progress_(progress),
+          all_(all) {}
+
+    /// Throws what the first variant that failed has thrown, after those in work have ended.
+    void render(const RenderOptions& options, int threads, const std::atomic<bool>& stop) {
+        ordered_pipeline(
+            todo_.size(), std::min(threads, 2), ended_,
+            [&](std::size_t /*any*/) { return render_next(options, stop); },
+            [&](std::pair<int, RenderSummary>& found) { add(found.first, found.second); });
+        if (!failures_.empty()) std::rethrow_exception(failures_.begin()->second);
+        for (auto& [index, found] : warnings_) {
+            for (Warning& warning : found)
+                warning.about.insert(0, variant_folder(index) + ": ");
+            append(all_.warnings, std::move(found));
+        }
+    }
+
+  private:
+    std::pair<int, RenderSummary> render_next(const RenderOptions& options,
+                                              const std::atomic<bool>& stop) {
+        std::unique_lock guard(mutex_);
+        const int index = todo_[next_++];
+        try {
+            const Mission variant = variants_[index];
+            // Isolated, so that a thread that waits for others does not begin another variant.
+            const Assembly assembly =
+                tbb::this_task_arena::isolate([&] { return assemble(variant, models_); });
+            assembled_(variant, assembly);
+            guard.unlock();
+            RenderSummary one = run_job(variant, assembly, options, nullptr, stop);
+            append(one.warnings, image_warnings(variant, assembly, one.sensors));
+            if (one.stopped) ended_ = true;
+            return {index, std::move(one)};
+        } catch (...) {
+            if (!guard) guard.lock();
+            failures_.emplace(index, std::current_exception());
+            ended_ = true;
+            return {index, {}};
+        }
+    }
+
+    void add(int index, RenderSummary& one) {
+        all_ += one;
+        all_.complete = all_.complete && one.complete;
+        all_.stopped = all_.stopped || one.stopped;
+        all_.unlocked = all_.unlocked || one.unlocked;
+        warnings_[index] = std::move(one.warnings);
+        if (progress_) progress_(++done_, todo_.size());
+    }
+
+    const Variants& variants_;
+    const std::vector<int>& todo_;
+    SceneStore& models_;
+    const VariantCallback& assembled_;
+    const ProgressCallback& progress_;
+    RenderSummary& all_;
+    std::size_t done_ = 0;
+    std::map<int, std::vector<Warning>> warnings_;
+    std::atomic<bool> ended_ = false;
+    std::mutex mutex_;  // guards the models and these:
+    std::size_t next_ = 0;
+    std::map<int, std::exception_ptr> failures_;
+};
 
 }  // namespace
 
@@ -205,37 +282,18 @@ RenderSummary run_variants(const Mission& mission, const Variants& variants,
         if (options.overwrite) remove_variants(folder, variants[0]);
         claim_variants(folder, json);
     };
-    const RenderOptions one_by_one{
-        .threads = options.threads, .files = options.files, .checkpoint_s = options.checkpoint_s};
     all.complete = options.files;
     Stopwatch watch;
-    // While a variant is rendered, the next one is assembled.
-    const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
-    std::future<std::pair<Mission, Assembly>> next;
-    const auto begin_assembly = [&](std::size_t k) {
-        next = std::async(when, [&models, &variants, index = todo[k]] {
-            Mission variant = variants[index];
-            Assembly assembly = assemble(variant, models);
-            return std::pair(std::move(variant), std::move(assembly));
-        });
-    };
-    if (!todo.empty()) begin_assembly(0);
-    for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
-        const auto assembled = next.get();
-        const Mission& variant = assembled.first;
-        const Assembly& assembly = assembled.second;
-        if (k + 1 < todo.size()) begin_assembly(k + 1);
+    const RenderOptions one_by_one{
+        .threads = options.threads, .files = options.files, .checkpoint_s = options.checkpoint_s};
+    const auto assembled = [&](const Mission& variant, const Assembly& assembly) {
         if (begin) begin(variant, assembly);
         if (options.files && !lock) enter();  // once the first scene has been read
-        const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);
-        all += one;
-        all.complete = all.complete && one.complete;
-        all.stopped = one.stopped;
-        all.unlocked = all.unlocked || one.unlocked;
-        add_warnings(variant, one.warnings, all);
-        add_warnings(variant, image_warnings(variant, assembly, one.sensors), all);
-        if (progress) progress(k + 1, todo.size());
-    }
+    };
+    on_threads(options.threads, [&](int threads) {
+        VariantQueue(variants, todo, models, assembled, progress, all)
+            .render(one_by_one, threads, stop);
+    });
     if (options.files) {
         // A shard without a variant makes its folder, too: merge takes those of all shards.
         if (!lock && read_variants(folder) != json) enter();

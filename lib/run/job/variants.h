@@ -45,7 +45,7 @@ bool is_complete(const std::filesystem::path& dataset);
 /// Called before a variant is rendered, with its assembly.
 using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;
 
-/// Renders the variants of a mission that are not finished, one after the other, as run_job does.
+/// Renders the variants of a mission that are not finished, up to two at a time, as run_job does.
 /// The summary holds the sums over all and the warnings about each, with its folder.
 RenderSummary run_variants(const Mission& mission, const Variants& variants,
                            const RenderOptions& options, const VariantCallback& begin,

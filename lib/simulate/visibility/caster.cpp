@@ -175,16 +175,22 @@ Caster::~Caster() = default;
 
 Caster SharedTrees::caster(const Scene& scene) {
     const std::lock_guard lock(mutex_);
-    const bool is_free = last_ && last_.use_count() == 1;
-    // The count alone does not order the last use on another thread before the change.
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (is_free && last_->has_first_file(scene)) {
-        last_->put_others(scene);
+    const auto is_free = [](const auto& trees) { return trees.use_count() <= 1; };
+    auto place = std::ranges::find_if(kept_, [&](const auto& trees) {
+        if (!trees || !is_free(trees)) return false;
+        // The count alone does not order the last use on another thread before the change.
+        std::atomic_thread_fence(std::memory_order_acquire);
+        return trees->has_first_file(scene);
+    });
+    if (place != kept_.end()) {
+        (*place)->put_others(scene);
     } else {
-        last_.reset();  // before another takes memory
-        last_ = Caster::make_trees(scene);
+        place = std::ranges::find_if(kept_, is_free);
+        if (place == kept_.end()) place = kept_.begin();
+        place->reset();  // before another takes memory
+        *place = Caster::make_trees(scene);
     }
-    return {last_, {}};
+    return {*place, {}};
 }
 
 std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -87,12 +88,12 @@ class Caster {
 /// Makes casters over scenes that share their first file, whose tree is kept. Thread-safe.
 class SharedTrees {
   public:
-    /// As Caster(scene), and faster once the last caster and its copies are gone.
+    /// As Caster(scene), and faster if at most one of the earlier casters is left with its copies.
     Caster caster(const Scene& scene);
 
   private:
     std::mutex mutex_;
-    std::shared_ptr<Caster::Trees> last_;
+    std::array<std::shared_ptr<Caster::Trees>, 2> kept_;  ///< two variants at a time need one each
 };
 
 }  // namespace sonarsim
