@@ -63,8 +63,7 @@ void write_file_durably(const std::filesystem::path& path, std::string_view byte
 /// costs a fraction of a thousand fsync() calls. std::system_error when the disk refuses.
 void sync_file_system(const std::filesystem::path& folder);
 
-/// Throws std::system_error for errno with the text "`what` `path`: ...", as in "cannot write PATH:
-/// No space left on device".
+/// Throws std::system_error for errno with the text "`what` `path`: No space left on device".
 [[noreturn]] void throw_errno(const char* what, const std::filesystem::path& path);
 
 /// A new temporary name, ".<name>.<16 random hex digits>.part". A hidden sibling of `path`: a

@@ -128,8 +128,7 @@ class SchemaMaker {
         return json;
     }
 
-    /// A sonar's keys depend on its kind and model. A preset may give these, so that with a preset
-    /// all keys of all kinds are allowed.
+    /// A sonar's keys depend on its kind and model. A preset may give these: then all are allowed.
     Json sonars_json(const std::string& path) const {
         const std::vector<std::string> models = names_of(echo_models);
         const std::vector<std::string> others(models.begin() + 1, models.end());

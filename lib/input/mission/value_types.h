@@ -10,7 +10,6 @@
 #include <ranges>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "core/text.h"

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/error.h"

@@ -118,8 +118,7 @@ inline std::string record_bytes(const PingNumbers& numbers) {
 }
 
 /// One output format of one sensor, for any number of threads; the context must outlive it. A
-/// resumed run finds finished pings by the sizes and hashes in the journal, and makes products
-/// again unless all of them exist.
+/// resumed run finds finished pings by the journal, and makes products unless all exist.
 struct Writer {
     PingOutput per_ping;
     /// Files that are made of the records of all pings.

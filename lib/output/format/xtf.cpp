@@ -101,7 +101,7 @@ std::string xtf_record(const XtfFile& file, const XtfPing& ping,
     put_float(record, 72, ping.sound_speed_m_s);
     const double knots = ping.speed_m_s * 3600.0 / 1852.0;
     put_float(record, 120, knots);
-    put_float(record, 124, ping.heading_deg);
+    put_float(record, 124, ping.ship_heading_deg);
     put(record, 128, ping.ship_m.y());
     put(record, 136, ping.ship_m.x());
     put_float(record, 152, knots);

@@ -27,9 +27,10 @@ struct XtfPing {
     double speed_m_s = 0.0;    ///< over ground
     double depth_m = 0.0;      ///< depth below the water's surface
     double altitude_m = 0.0;   ///< 0: the bottom is not seen
-    double heading_deg = 0.0;  ///< clockwise from y
-    double pitch_deg = 0.0;    ///< bow up
-    double roll_deg = 0.0;     ///< starboard down
+    double heading_deg = 0.0;  ///< the sensor's, clockwise from y
+    double ship_heading_deg = 0.0;
+    double pitch_deg = 0.0;  ///< bow up
+    double roll_deg = 0.0;   ///< starboard down
     double sound_speed_m_s = 0.0;
     double range_max_m = 0.0;
     double seconds_per_ping = 0.0;

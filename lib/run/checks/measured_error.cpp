@@ -41,19 +41,17 @@ double cell_m2_of(const Sonar& sonar) {
     return std::min(noise.scatterer_m * noise.scatterer_m, std::max(0.1 * bin_m2, usual_m2));
 }
 
-Reference no_reference(std::size_t bins) {
-    Reference none;
-    none.intensity.resize(bins);
-    return none;
-}
-
 /// A reference with a bounded number of rays; one without casts if they could not suffice.
 Reference affordable_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                                const Pose& T_world_sensor, double goal) {
     const View& view = sonar.settings.view;
     const bool energies = sonar.settings.model->info.energies_add;
     const auto bins = static_cast<std::uint64_t>(view.range_bins) * view.beams;
-    if (energies && energy_rays_max < min_energy_rays_per_bin * bins) return no_reference(bins);
+    if (energies && energy_rays_max < min_energy_rays_per_bin * bins) {
+        Reference none;
+        none.intensity.resize(bins);
+        return none;
+    }
     return cast_reference(caster, scene, sonar, T_world_sensor,
                           {.noise = measurable * goal,
                            .rays_per_bin = 4.0,

@@ -39,8 +39,7 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
 }
 
 /// Warns of images that are too bright or too dark for the scale of the pictures. With `auto`
-/// glints are white on purpose, and a scale that was found from pings is never too dark. Fans that
-/// show raw/ do not depend on it.
+/// glints are white on purpose, and a scale found from pings is never too dark. Not for raw/.
 void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
     const EchoModelInfo& info = sonar.settings.model->info;

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "output/dataset/metadata.h"
 #include "run/job/dataset_folders.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"

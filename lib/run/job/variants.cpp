@@ -107,80 +107,66 @@ std::vector<int> unfinished(const Variants& variants, const RenderOptions& optio
     return todo;
 }
 
-/// Renders variants, two at a time: while one is assembled or ends, the pings of the other use the
-/// threads.
-class VariantQueue {
-  public:
-    /// All arguments must outlive it. `assembled` is called for one variant at a time, in order.
-    VariantQueue(const Variants& variants, const std::vector<int>& todo, SceneStore& models,
-                 const VariantCallback& assembled, const ProgressCallback& progress,
-                 RenderSummary& all)
-        : variants_(variants),
-          todo_(todo),
-          models_(models),
-          assembled_(assembled),
-          progress_(progress),
-          all_(all) {}
+/// Renders two variants at a time: while one is assembled or ends, the other uses the threads.
+struct VariantQueue {
+    const Variants& variants;
+    const std::vector<int>& todo;
+    SceneStore& models;
+    const VariantCallback& assembled;  ///< called for one variant at a time, in order
+    const ProgressCallback& progress;
+    RenderSummary& all;
+    std::size_t done = 0;
+    std::map<int, std::vector<Warning>> warnings = {};
+    std::atomic<bool> ended = false;
+    std::mutex mutex = {};  ///< guards the models and what follows
+    std::size_t next = 0;
+    std::map<int, std::exception_ptr> failures = {};
 
     /// Throws what the first variant that failed has thrown, after those in work have ended.
     void render(const RenderOptions& options, int threads, const std::atomic<bool>& stop) {
         ordered_pipeline(
-            todo_.size(), std::min(threads, 2), ended_,
+            todo.size(), std::min(threads, 2), ended,
             [&](std::size_t /*any*/) { return render_next(options, stop); },
             [&](std::pair<int, RenderSummary>& found) { add(found.first, found.second); });
-        if (!failures_.empty()) std::rethrow_exception(failures_.begin()->second);
-        for (auto& [index, found] : warnings_) {
+        if (!failures.empty()) std::rethrow_exception(failures.begin()->second);
+        for (auto& [index, found] : warnings) {
             for (Warning& warning : found)
                 warning.about.insert(0, variant_folder(index) + ": ");
-            append(all_.warnings, std::move(found));
+            append(all.warnings, std::move(found));
         }
     }
 
-  private:
     std::pair<int, RenderSummary> render_next(const RenderOptions& options,
                                               const std::atomic<bool>& stop) {
-        std::unique_lock guard(mutex_);
-        const int index = todo_[next_++];
+        std::unique_lock guard(mutex);
+        const int index = todo[next++];
         try {
-            const Mission variant = variants_[index];
+            const Mission variant = variants[index];
             // Isolated, so that a thread that waits for others does not begin another variant.
             const Assembly assembly =
-                tbb::this_task_arena::isolate([&] { return assemble(variant, models_); });
-            assembled_(variant, assembly);
+                tbb::this_task_arena::isolate([&] { return assemble(variant, models); });
+            assembled(variant, assembly);
             guard.unlock();
             RenderSummary one = run_job(variant, assembly, options, nullptr, stop);
             append(one.warnings, image_warnings(variant, assembly, one.sensors));
-            if (one.stopped) ended_ = true;
+            if (one.stopped) ended = true;
             return {index, std::move(one)};
         } catch (...) {
             if (!guard) guard.lock();
-            failures_.emplace(index, std::current_exception());
-            ended_ = true;
+            failures.emplace(index, std::current_exception());
+            ended = true;
             return {index, {}};
         }
     }
 
     void add(int index, RenderSummary& one) {
-        all_ += one;
-        all_.complete = all_.complete && one.complete;
-        all_.stopped = all_.stopped || one.stopped;
-        all_.unlocked = all_.unlocked || one.unlocked;
-        warnings_[index] = std::move(one.warnings);
-        if (progress_) progress_(++done_, todo_.size());
+        all += one;
+        all.complete = all.complete && one.complete;
+        all.stopped = all.stopped || one.stopped;
+        all.unlocked = all.unlocked || one.unlocked;
+        warnings[index] = std::move(one.warnings);
+        if (progress) progress(++done, todo.size());
     }
-
-    const Variants& variants_;
-    const std::vector<int>& todo_;
-    SceneStore& models_;
-    const VariantCallback& assembled_;
-    const ProgressCallback& progress_;
-    RenderSummary& all_;
-    std::size_t done_ = 0;
-    std::map<int, std::vector<Warning>> warnings_;
-    std::atomic<bool> ended_ = false;
-    std::mutex mutex_;  // guards the models and these:
-    std::size_t next_ = 0;
-    std::map<int, std::exception_ptr> failures_;
 };
 
 }  // namespace
@@ -291,8 +277,8 @@ RenderSummary run_variants(const Mission& mission, const Variants& variants,
         if (options.files && !lock) enter();  // once the first scene has been read
     };
     on_threads(options.threads, [&](int threads) {
-        VariantQueue(variants, todo, models, assembled, progress, all)
-            .render(one_by_one, threads, stop);
+        VariantQueue{variants, todo, models, assembled, progress, all}.render(one_by_one, threads,
+                                                                              stop);
     });
     if (options.files) {
         // A shard without a variant makes its folder, too: merge takes those of all shards.

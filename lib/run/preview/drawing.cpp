@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/text.h"
 #include "run/preview/preview.h"
 
 namespace sonarsim {

@@ -13,6 +13,7 @@
 #include "input/trajectory/files.h"
 #include "input/trajectory/patterns.h"
 #include "simulate/sonar/sonar.h"
+#include "simulate/water/water_ray.h"
 
 namespace sonarsim {
 
@@ -74,9 +75,18 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
 
 /// The motion of a sonar at a pose: the difference of the neighbouring poses over that in time.
 PingMotion motion_at(const Trajectory& trajectory, std::uint32_t pose, const Sonar& sonar,
-                     double sound_speed_m_s) {
-    const TimedPose& before = trajectory[pose > 0 ? pose - 1 : 0];
-    const TimedPose& after = trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
+                     double sound_speed_m_s, bool has_gaps) {
+    const auto* first = &trajectory[pose > 0 ? pose - 1 : 0];
+    const auto* last = &trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
+    const double before_s = trajectory[pose].t_s - first->t_s;
+    const double after_s = last->t_s - trajectory[pose].t_s;
+    constexpr double rounding = 1e-6;
+    if (has_gaps && after_s > 0.0 && before_s > (1.0 + rounding) * after_s)
+        first = &trajectory[pose];
+    else if (has_gaps && before_s > 0.0 && after_s > (1.0 + rounding) * before_s)
+        last = &trajectory[pose];
+    const TimedPose& before = *first;
+    const TimedPose& after = *last;
     const double dt = after.t_s - before.t_s;
     if (!(dt > 0.0)) return {};
     // The poses of the mount, without the turn of the head from ping to ping.
@@ -144,8 +154,8 @@ void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& pos
         if (weights == 0.0) {
             throw InputError({mission.scene.place.file},
                              "trajectory.lawnmower.altitude_m: there is no bottom below " +
-                                 number_text(at.x()) + ", " + number_text(at.y()) +
-                                 " m; name it in scene.bottom, or give z_m");
+                                 short_text(at.x(), 6) + ", " + short_text(at.y(), 6) +
+                                 " m; name one without a hole in scene.bottom, or give z_m");
         }
         at.z() += sum / weights + lines->altitude_m;
     }
@@ -199,14 +209,26 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
         refuse_if(vehicle_varies_by_ping(mission),
                   "moves_in_ping takes speeds from successive poses, and `vary` draws a new offset "
                   "or turn of the vehicle for each; leave out one");
+        const auto* lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
+        const bool has_gaps = lines && !lines->turns;  // between the poses of two lines
         std::vector<PingMotion> motions;
         for (std::uint32_t pose = 0; pose < trajectory.size(); ++pose) {
             const SonarAtPose then(mission, sonar, pose);
-            motions.push_back(motion_at(trajectory, pose, *then, sound_speed_m_s));
+            motions.push_back(motion_at(trajectory, pose, *then, sound_speed_m_s, has_gaps));
             motions.back().measures_direction = sonar.head_angles_rad.empty();
         }
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
     }
+}
+
+std::optional<double> measured_altitude_m(const Scene& scene, const VisibilityEngine& engine,
+                                          const Pose& T_world_sensor) {
+    const std::optional<double> altitude = altitude_m(engine, T_world_sensor);
+    if (!altitude || !scene.sound_profile) return altitude;
+    const Eigen::Vector3d& at = T_world_sensor.translation;
+    const auto found =
+        apparent_place(*scene.sound_profile, at, at - *altitude * Eigen::Vector3d::UnitZ());
+    return found ? found->apparent.norm() : *altitude;
 }
 
 }  // namespace sonarsim

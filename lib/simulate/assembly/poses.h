@@ -69,4 +69,8 @@ inline std::vector<std::uint32_t> sample_pings(std::size_t poses, int every,
     return chosen;
 }
 
+/// altitude_m() as the sonar measures it by the time of sound, which differs where sound bends.
+std::optional<double> measured_altitude_m(const Scene& scene, const VisibilityEngine& engine,
+                                          const Pose& T_world_sensor);
+
 }  // namespace sonarsim

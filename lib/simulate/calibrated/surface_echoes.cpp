@@ -40,8 +40,7 @@ Reach reach_of(const Sample& sample) {
 }
 
 /// The directions and ranges at which a line array may receive objects that are no background, or
-/// lose surface to their shadows: the cones that their visible samples reach, from a little before
-/// them to the end of the range.
+/// lose surface to their shadows: the cones of their visible samples, from just before them on.
 class NearObjects {
   public:
     explicit NearObjects(const SceneObjects& objects) : objects_(objects) {}

@@ -14,12 +14,10 @@ namespace sonarsim {
 WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument);
 
 /// The volume scattering cross-section of the water without its layers, m^2 per m^3: plankton and
-/// bubbles, whose scattering does not depend on frequency, and suspended particles. 0 without any.
-/// `water.content` is not `auto`.
+/// bubbles (the same at all frequencies) and suspended particles; `water.content` is not `auto`.
 ///
 /// The levels of `content` are chosen: they divide the range of -90 dB (clear) to -55 dB (dense
-/// clouds) that is common for the sea. So are its suspended particles: 0.5 mg/l are usual off the
-/// coast, 5 to 50 mg/l near it.
+/// clouds) common in the sea. Suspended particles: 0.5 mg/l off the coast, 5 to 50 near it.
 double volume_strength(const WaterConfig& water, double frequency_hz);
 
 /// The backscattering cross-section of particles of quartz, m^2 per m^3 of water:

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "simulate/trace/arrivals.h"
-
 namespace sonarsim {
 
 namespace {
@@ -40,7 +38,18 @@ class LineTracer {
     /// Counts a line as visible. True if wanted surface may lie behind it.
     bool see(const SightLine& line) {
         solid_angles_[owner_of(line)].visible += line.solid_angle;
-        return is_wanted(line);
+        return is_wanted(line) || is_before_object(line);
+    }
+
+    /// True if an object may lie behind some of a line over background.
+    bool is_before_object(const SightLine& line) const {
+        if (is_by_object(line)) return false;
+        const auto lies = [&](const Eigen::Vector3f& edge, float share) {
+            const Eigen::Vector3f off = share / line.before_m * edge;
+            return directions_.may_lie_behind(line.direction + off, line.before_m);
+        };
+        const auto& [u, v] = std::pair(line.sample->edge_u, line.sample->edge_v);
+        return lies(u, 0.0F) || lies(u, 1.0F) || lies(u, -1.0F) || lies(v, 1.0F) || lies(v, -1.0F);
     }
 
     /// True if an object hides what lies behind a line, not background.
@@ -121,7 +130,7 @@ class LineTracer {
 /// The parts for a line that meets these surfaces: no piece of them is deeper than a few bins.
 LineParts parts_by_surfaces(SightLine line, std::span<const Intersection> surfaces,
                             const LineWidth& width, const LineTracer& tracer) {
-    LineParts all;
+    LineParts all = tracer.is_before_object(line) ? parts_over_background(line) : LineParts{};
     for (std::size_t i = 0; i <= surfaces.size(); ++i) {
         const Intersection* const met = i < surfaces.size() ? &surfaces[i] : nullptr;
         if (!met && line.behind_background) break;
@@ -158,8 +167,9 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
     };
     if (echoes.cones.exist()) {
         for (const SightLine& line : whole)
-            divide_one(line,
-                       tracer.is_by_object(line) ? parts_of(line, nullptr, width) : LineParts{});
+            divide_one(line, tracer.is_by_object(line)       ? parts_of(line, nullptr, width)
+                             : tracer.is_before_object(line) ? parts_over_background(line)
+                                                             : LineParts{});
     } else {
         pass(whole, [&](std::size_t k, std::span<const Intersection> surfaces) {
             divide_one(whole[k], parts_by_surfaces(whole[k], surfaces, width, tracer));

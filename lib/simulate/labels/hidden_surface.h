@@ -88,6 +88,9 @@ struct LineParts {
 /// The parts for a line that meets this surface; null: none.
 LineParts parts_of(const SightLine& line, const Intersection* met, const LineWidth& width);
 
+/// The same for a line over background, which may have some of an object behind it.
+LineParts parts_over_background(const SightLine& line);
+
 /// Appends the parts of a line that has not left its sample.
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,
             const KeepLine& keep, std::vector<SightLine>& out);

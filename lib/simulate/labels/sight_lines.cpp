@@ -19,6 +19,10 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
+// The width of a line over background: a few hundredths of the height of things that are looked
+// for.
+constexpr float background_rad = 0.004F;
+
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
                       int beam) {
     const auto& [range, direction] = place;
@@ -123,6 +127,15 @@ LineParts parts_of(const SightLine& line, const Intersection* met, const LineWid
         // The number of a surface that is seen edge-on may be NaN.
         const float most = by_beams ? max_parts_by_beams : max_parts_by_bins;
         return static_cast<int>(std::ceil(number > 1.0F ? std::min(number, most) : 1.0F));
+    };
+    return {count(line.sample->edge_u), count(line.sample->edge_v)};
+}
+
+LineParts parts_over_background(const SightLine& line) {
+    const auto count = [&](const Eigen::Vector3f& half_edge) {
+        const float half_m = (half_edge - line.direction * line.direction.dot(half_edge)).norm();
+        const float number = 2.0F * half_m / (line.before_m * background_rad);
+        return static_cast<int>(std::ceil(std::clamp(number, 1.0F, max_parts_by_bins)));
     };
     return {count(line.sample->edge_u), count(line.sample->edge_v)};
 }

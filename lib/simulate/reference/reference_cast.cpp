@@ -77,8 +77,7 @@ struct Cast {
 };
 
 /// Position of ray i in its cell: shares of the column's width and of a step along it. A lattice
-/// oblique to columns and rows, so that an edge along either of them is sampled at all phases. Each
-/// cast has its own in each beam.
+/// oblique to both, so that an edge along either is sampled at all phases; one per cast and beam.
 struct CellPosition {
     double across;
     double along;

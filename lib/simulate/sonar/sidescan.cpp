@@ -12,8 +12,7 @@ namespace sonarsim {
 namespace {
 
 // The waterfall of a side-scan sonar as an operator sees it, in copper tones: a range axis, then a
-// row per ping, the first ping on top, port on the left. The line at nadir lies over the first
-// column to starboard.
+// row per ping, the first on top, port on the left, and a line over the first starboard column.
 
 constexpr int axis_height = 22;
 constexpr Rgb nadir_colour{150, 190, 220};

@@ -13,8 +13,7 @@
 
 namespace sonarsim {
 
-/// Takes blocks of echoes. Their samples stay during the call, and with EchoRequest::patches as
-/// long as those of SurfaceEchoes.
+/// Takes blocks of echoes. Samples stay during the call, or as long as SurfaceEchoes' patches.
 using UseEchoes = std::function<void(const EchoBlock&)>;
 
 /// Collects echoes into blocks and hands these on.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/elementary.h"
 #include "core/units.h"
 #include "simulate/trace/bounce_path.h"
 #include "simulate/trace/visible_surface.h"

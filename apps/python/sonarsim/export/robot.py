@@ -21,7 +21,8 @@ def write(folder, dataset, sensors, _options):
         writer, last = Writer(file), None
         for ping, _, sample in jobs:
             meta, name = sample["meta"], re.sub(r"\W", "_", sample.sensor.name, flags=re.ASCII)     # as ROS has them
-            time_ns = round(meta["time_s"] * 1e9)
+            whole_s, rest_s = divmod(meta["time_s"], 1)
+            time_ns = int(whole_s) * 10**9 + round(rest_s * 1e9)
             if not 0 <= time_ns < 2**31 * 10**9:
                 raise ValueError(f"{dataset.folder}: has pings before 1970 or after 2038, which ROS does not know")
             stamp = dict(zip(("sec", "nanosec"), divmod(time_ns, 10**9)))

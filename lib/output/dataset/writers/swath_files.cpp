@@ -34,13 +34,18 @@ void for_each_row(const WriterContext& context, const VisibilityEngine& engine,
         const auto now =
             engine_at(engine, context.assembly.motions, context.assembly.trajectory[pose].t_s);
         visit({pose, T_world_sensor, values,
-               swath_of(sonar, T_world_sensor, altitude_m(*now, T_world_sensor))});
+               swath_of(sonar, T_world_sensor,
+                        measured_altitude_m(context.assembly.scene, *now, T_world_sensor))});
     }
 }
 
 /// Attitude of the body of a sonar that looks down; its channels are port and starboard of it.
 Rpy body_attitude(const Pose& T_world_sensor) {
     return rpy_from_rotation(T_world_sensor.rotation * rotation_from_rpy(0.0, -0.5 * pi, 0.0));
+}
+
+double heading_deg(const Rpy& attitude) {
+    return std::fmod(450.0 - degrees(attitude.yaw), 360.0);
 }
 
 XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
@@ -66,7 +71,9 @@ XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
         .speed_m_s = interval_s > 0.0 ? (place_of(to) - place_of(from)).norm() / interval_s : 0.0,
         .depth_m = (surface ? surface->height_m : 0.0) - position.z(),
         .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
-        .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
+        .heading_deg = heading_deg(attitude),
+        .ship_heading_deg =
+            heading_deg(rpy_from_rotation(trajectory[row.pose].T_world_vehicle.rotation)),
         .pitch_deg = -degrees(attitude.pitch),
         .roll_deg = degrees(attitude.roll),
         .sound_speed_m_s = context.mission.water.sound_speed_m_s,

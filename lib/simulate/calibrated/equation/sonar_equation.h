@@ -31,8 +31,7 @@ SineTable sine_table(double from, double to, const Function& value) {
 }
 
 /// The power of a two-way pattern by the sine of the elevation: that of a line array of half-power
-/// width `width_rad`, as if only the transmitter were directed in elevation; 0: omnidirectional.
-/// `floor_db` is added to its power.
+/// width `width_rad`, as if only the transmitter had one; 0: omnidirectional. Adds `floor_db`.
 SineTable elevation_pattern(double width_rad, double side_lobe_db,
                             const ElementsConfig& elements = {},
                             double floor_db = no_lobe_floor_db);

@@ -31,8 +31,7 @@ double fish_section_m2(double length_m, double frequency_hz);
 ///
 /// (M. Minnaert 1933; H. Medwin and C. S. Clay, "Fundamentals of Acoustical Oceanography", 1998,
 /// chapter 8). It includes the damping by radiation, but not by heat conduction and viscosity: near
-/// resonance, real bubbles below a millimetre are weaker. From k a = 1 on the section is at least
-/// that of a large sphere, a^2 / 4.
+/// resonance, real bubbles below a millimetre are weaker. From k a = 1 on it is at least a^2 / 4.
 double bubble_section_m2(double radius_m, double depth_m, double density_kg_m3,
                          double sound_speed_m_s, double frequency_hz);
 

@@ -34,8 +34,7 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws);
 
 /// The integers of `bits` bits that the instrument delivers. The powers are relative to full scale
-/// and clipped at 1. A is the root of a power and M the greatest integer; `offset` times M is
-/// subtracted, down to 0:
+/// and clipped at 1. A is the root of a power, M the greatest integer; `offset` M is subtracted:
 ///
 ///     gamma     M A^gamma
 ///     log       M (1 + 20 log10(A) / dynamic_range_db), 0 below

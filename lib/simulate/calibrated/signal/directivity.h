@@ -10,8 +10,7 @@
 namespace sonarsim {
 
 /// The errors e_n of the elements of the array that forms beams, (1 + e_n) being the factors on
-/// their weights: gains of normally distributed decibels and normally distributed phases, drawn by
-/// the serial number.
+/// their weights: normally distributed decibels and phases, drawn by the serial number.
 ///
 /// Small errors have the variance s^2 = (ln(10) / 20 gain_error_db)^2 + phase_error_rad^2. With
 /// weights w_n the pattern is sum w_n (1 + e_n) exp(i k x_n u). The errors are independent, so the

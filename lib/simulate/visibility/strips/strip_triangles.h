@@ -97,8 +97,7 @@ struct StripTriangles {
     std::vector<StripTriangle> items;
     std::uint64_t dropped = 0;  ///< edge-on to within rounding
     /// The upright extent of triangles that are thinner than a least column, times the width of
-    /// that column, over the area of all triangles in the picture: 3 to 7 for lattices, 0.2 to 1
-    /// for walls, hulls and ground.
+    /// that column, over the area of all triangles: 3 to 7 for lattices, 0.2 to 1 for others.
     float thinness = 0.0F;
 };
 

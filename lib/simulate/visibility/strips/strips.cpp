@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "simulate/visibility/strips/strip_samples.h"
 #include "simulate/visibility/strips/strip_triangles.h"
