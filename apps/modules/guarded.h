@@ -5,8 +5,7 @@
 #include <exception>
 #include <new>
 
-/// Runs a function, as no exception may reach the program. Returns 0, or 1 for an exception with
-/// its reason, which ends with a zero.
+/// Runs a function. Returns 0, or 1 for an exception, which may not pass, with its reason.
 int guarded(char* error, std::size_t error_size, const auto& run) {
     try {
         run();

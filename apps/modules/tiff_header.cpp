@@ -92,8 +92,7 @@ int geo_key(const Values<std::uint16_t>& words, int key) {
     return 0;
 }
 
-/// True if the projected system of this EPSG code is in metres (registry of 2022: ranges without
-/// any other unit; some systems in metres lie outside).
+/// True if this EPSG code lies in ranges of projected systems in metres alone (registry of 2022).
 bool is_metric(int epsg) {
     constexpr int ranges[][2] = {
         {2000, 2065},   {2067, 2135},   {2137, 2154},   {2161, 2193},   {2315, 2866},

@@ -63,8 +63,7 @@ inline double sinc(double t) {
 }
 
 /// The angle of the point (x, y), in [-pi, pi]; 0 at the origin. Absolute error below 1e-15.
-/// The argument is halved twice, tan(a/2) = t / (1 + sqrt(1 + t^2)), so that the Taylor series of
-/// the arctangent meets |t| <= tan(pi/16).
+/// The argument is halved twice, tan(a/2) = t / (1 + sqrt(1 + t^2)), before the Taylor series.
 inline double arctan2(double y, double x) {
     const double ax = std::fabs(x);
     const double ay = std::fabs(y);

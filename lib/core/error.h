@@ -19,8 +19,7 @@ struct Location {
     std::string text() const;
 };
 
-/// Wrong input by the user. The message names the place, the fault and the cure, one line for each
-/// error; the program ends with exit code 2.
+/// Wrong input by the user: a line for each error with place, fault and cure. Exit code 2.
 class InputError : public std::runtime_error {
   public:
     InputError(const Location& where, const std::string& what);

@@ -47,8 +47,7 @@ std::optional<std::size_t> move_all(std::size_t size, const auto& move) {
     return done;
 }
 
-/// The bytes of a file that a user named. InputError when it is missing, is not a regular file,
-/// cannot be read or is larger than `limit` bytes.
+/// The bytes of a user's file. InputError unless it can be read, is regular and within `limit`.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 /// Writes to a temporary name next to `path` and renames it: a reader sees the old file or the
@@ -115,8 +114,7 @@ class StreamedFile {
 /// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
 void require_no_link(const std::filesystem::path& path, const std::string& what);
 
-/// Up to `size` bytes of a file from `offset` on, fewer at its end. InputError when it is missing,
-/// is a link or not a regular file, or cannot be read.
+/// Up to `size` bytes of a file from `offset` on. InputError unless it is regular and readable.
 std::string read_bytes(const std::filesystem::path& path, std::size_t offset, std::size_t size);
 
 /// Copies a file: a reader sees the old file or the whole new one; a link is replaced. InputError

@@ -113,8 +113,7 @@ constexpr Stream stream_named(std::string_view name) {
     return Stream{0x80000000U | number_of_name(name)};
 }
 
-/// The key of one stream of one ping of one sensor. The counter that goes with it identifies the
-/// item of the draw (a scatterer cell, a pixel).
+/// The key of a stream of one ping of one sensor. The counter identifies the item of the draw.
 inline PhiloxKey stream_key(std::uint64_t seed, std::uint32_t sensor, std::uint32_t ping,
                             Stream stream) {
     const PhiloxBlock block =

@@ -49,8 +49,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
 /// or the value cannot be read, or when the path leads through a value that is not a section.
 void apply_override(YamlNode& root, const std::string& setting);
 
-/// Sets the value at the path "a.b.c" in the same way. The value is YAML text; `where` becomes the
-/// place of the value and of all its parts.
+/// Sets the value at the path "a.b.c" in the same way, from YAML text; `where` becomes its place.
 void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where);
 

@@ -13,8 +13,7 @@
 
 namespace sonarsim {
 
-/// Throws InputError at the place of each rule whose key cannot be drawn for every ping, or that
-/// may draw a number which the key cannot have.
+/// InputError at each rule whose key cannot be drawn for every ping, or cannot have the number.
 void check_ping_draws(const Mission& mission);
 
 /// True if any key of a sensor is drawn for every ping.

@@ -22,8 +22,7 @@ namespace sonarsim {
 /// only when the rest of a section cannot be checked because its kind is unknown.
 class MissionReader : public KeyVisitor<MissionReader> {
   public:
-    /// `name` is the section's name in messages. Relative paths start at `base_folder`. Throws
-    /// InputError when the node is not a section.
+    /// `name`: in messages. Relative paths start at `base_folder`. InputError if not a section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 

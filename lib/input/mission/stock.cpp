@@ -44,8 +44,7 @@ YamlNode& add_list(YamlNode& section, const char* key, const YamlPlace& place) {
     return list;
 }
 
-/// The files of a kind of the stock, absolute. `missing`: a file was not there, which is one error
-/// for all, as the script makes all of them.
+/// The files of a kind of the stock, absolute. `missing`: a file was not there, one error for all.
 void add_files(const YamlNode& kind, const std::filesystem::path& base_folder, ErrorList& errors,
                bool& missing, std::vector<YamlNode>& files) {
     const std::vector<std::string> kinds(std::begin(stock_kinds), std::end(stock_kinds));

@@ -209,8 +209,7 @@ struct SubsetType {
     }
 };
 
-/// The base of a visitor of the keys in mission.h. It passes keys with one value to the visitor's
-/// method value(key, value, type, meaning, presence).
+/// The base of a visitor of keys: passes them to its value(key, value, type, meaning, presence).
 template <class Visitor>
 class KeyVisitor {
   public:

@@ -41,8 +41,7 @@ struct VaryConfig {
 /// Keys of a mission and the values drawn for them, as YAML text.
 using DrawnValues = std::vector<std::pair<std::string, std::string>>;
 
-/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so
-/// that they are the same in all variants.
+/// The objects that variants of a mission may have, by which classes get the same numbers in all.
 struct PossibleObjects {
     std::vector<std::string> classes;  ///< they are numbered first
     /// Each with the class that its file gives it; "": none. The rules then give them classes.

@@ -76,8 +76,7 @@ inline std::vector<double> grid_matrix(double column_m, double row_m, double x_m
     return {column_m, 0.0, 0.0, 0.0, 0.0, row_m, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x_m, y_m, 0.0, 1.0};
 }
 
-/// (column, row, height) of each height of a grid, row by row. The first vertex has the column and
-/// row `first`; `parts` vertices make a step of 1.
+/// (column, row, height) of a grid, row by row, from `first` on; `parts` vertices make a step.
 inline std::vector<float> grid_positions(const std::vector<float>& heights, std::size_t columns,
                                          const Eigen::Array2f& first = Eigen::Array2f::Zero(),
                                          const Eigen::Array2f& parts = Eigen::Array2f::Ones()) {

@@ -108,8 +108,7 @@ struct Scene {
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame
     Eigen::Vector3d bounds_max = Eigen::Vector3d::Zero();
     /// Largest rounding error of a vertex, m. Floats far from the origin of their own file or node
-    /// are coarse: at UTM coordinates the error is 0.25 m; a node with such coordinates as its
-    /// translation loses nothing.
+    /// are coarse: at UTM coordinates the error is 0.25 m; the translation of a node loses nothing.
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
     std::shared_ptr<const GroundMaps> maps;  ///< maps of instances; null: none

@@ -11,8 +11,7 @@ namespace sonarsim {
 /// materials and one of instances with their triangles and area.
 std::string describe_scene(const Scene& scene);
 
-/// A table of the scene's materials as a CSV has them, with their power reflection coefficients in
-/// `water`. Materials that the CSV lacks are marked.
+/// A table of the scene's materials with their reflection in `water`; those not in the CSV marked.
 std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water);
 
 }  // namespace sonarsim

@@ -10,8 +10,7 @@
 
 namespace sonarsim {
 
-/// The brightest pixel. std::runtime_error with sensor and pose when any pixel is NaN or infinite:
-/// such an image must never reach the disk.
+/// The brightest pixel. std::runtime_error with sensor and pose when any is NaN or infinite.
 float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t pose);
 
 /// Measures and labels a ping and calls `use` with it; `plan` is that of its sensor.

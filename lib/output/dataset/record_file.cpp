@@ -52,8 +52,7 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
 
 /// Makes the open file one of this format and length.
 void RecordFile::prepare(const std::string& header) const {
-    // No temporary name and no truncation: two shards that begin at once make the same file, and
-    // neither can remove what the other has written.
+    // No temporary name and no truncation: two shards may begin at once and make the same file.
     struct stat status {};
     std::string found(header.size(), '\0');
     const bool whole = ::fstat(file_.get(), &status) == 0 &&

@@ -19,8 +19,7 @@ using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
 RecordFiles open_records(const Layout& layout, RecordAccess access);
 
-/// The pings whose files and records are as the journal lists them. Opens no file for writing: the
-/// disk may be read-only. The layout must outlive it.
+/// The pings whose files and records are as in the journal. Only reads. The layout must outlive it.
 class FinishedPings {
   public:
     explicit FinishedPings(const Layout& layout);

@@ -31,8 +31,7 @@ std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::pa
 void require_same_variants(const std::filesystem::path& folder, const Json& json,
                            const std::filesystem::path& first);
 
-/// InputError when the output folder holds other files, a link or, without `overwrite`, other
-/// variants than those of `json`; fewer are allowed.
+/// InputError when the folder holds other files, a link or, without `overwrite`, other variants.
 void inspect_variants(const std::filesystem::path& folder, const Json& json,
                       const Variants& variants, bool overwrite);
 

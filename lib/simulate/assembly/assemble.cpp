@@ -173,8 +173,7 @@ std::pair<MaterialTable, SceneParts> place(const Mission& mission, const EngineS
             require_material(materials, mission.scene.material_default, mission.scene.place);
         }
     });
-    // Checks of motions need the trajectory, and checks of surfaces need the materials. Without
-    // these only the files themselves are checked.
+    // Without a trajectory or materials only the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
     add_ping_motions(mission, assembly.trajectory, assembly.sonars);

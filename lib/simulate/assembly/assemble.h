@@ -62,8 +62,7 @@ std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 /// The engine of a mission, over the trees of its assembly, which must outlive it.
 std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly);
 
-/// A ping of a dataset: sensor by its index in Mission::sensors, pose by its index on the
-/// trajectory. Ordered by pose, then sensor.
+/// A ping of a dataset: indices into Mission::sensors and the trajectory. Ordered by pose first.
 struct PingId {
     std::uint32_t pose = 0;
     std::uint32_t sensor = 0;

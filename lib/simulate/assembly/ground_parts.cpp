@@ -63,8 +63,7 @@ PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBo
     return map;
 }
 
-/// The placed seabed of a mission, made above `needed`, world x and y. `announce` gets a sentence
-/// before a large one is made; it may be null.
+/// The placed seabed of a mission, made above `needed`, world x and y. `announce` may be null.
 PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
                      const Eigen::AlignedBox2d& needed,
                      const std::function<void(const std::string&)>& announce) {

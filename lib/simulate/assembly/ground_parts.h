@@ -22,8 +22,7 @@ Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sona
 std::optional<PlacedFile> ground_of(const Mission& mission, const Trajectory& vehicle,
                                     std::span<const Sonar> sonars, SceneStore& models);
 
-/// The part of a bed without an end on which objects stand, which is a small part of what sonars
-/// reach; none for other grounds, or without objects.
+/// The part of a bed without an end on which objects stand; none for other grounds.
 std::optional<PlacedFile> bed_of_objects(const Mission& mission, SceneStore& models);
 
 }  // namespace sonarsim

@@ -32,8 +32,7 @@ std::optional<std::string> background_by_size(const Mission& mission, const Scen
 /// Objects of files are taken from `scene`; objects with a drawn number are named without any.
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene);
 
-/// The variants of a mission, each with the classes of all choices. Reads the files of the scene if
-/// `vary` changes the scene or the classes.
+/// The variants of a mission, with the classes of all choices. May read the files of the scene.
 Variants variants_of(const Mission& mission, const MissionSource& source);
 
 }  // namespace sonarsim

@@ -18,15 +18,13 @@
 namespace sonarsim {
 
 /// The variants of a mission often share the files of scenes, the surfaces of objects, the last
-/// bottom made of them, the tree of rays of the first file and the fans of pictures. Not
-/// thread-safe, except for the last two.
+/// bottom made of them and, for any number of threads, the trees of the first file and the fans.
 class SceneStore : public SceneFiles {
   public:
     const std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
 
-    /// Gets a sentence before a part of the scene is made that takes many seconds, with the key
-    /// that makes it smaller; null: it goes unsaid.
+    /// Gets a sentence before a part that takes many seconds is made, with a cure; may be null.
     std::function<void(const std::string&)> announce = {};
 
     /// The surface of a file; files read with the same options share one.

@@ -154,8 +154,7 @@ class ImageFormer {
     }
 
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
-    /// scene`: parts of what lies behind walls overlap, waves move, and no mesh has the shape of a
-    /// reflector to a fraction of a wavelength.
+    /// scene`: parts behind walls overlap, waves move, and no mesh is exact to a wavelength.
     template <class Add>
     void add_drawn_by_ping(Stream stream, EchoGrid& grid, Add add) {
         if (speckle_ != SpeckleMode::scene) return add(grid);

@@ -121,8 +121,7 @@ void set_info(CalibratedModel& model, const View& view) {
         info.cell.beams = radians(model.instrument.beam.width_deg) / cones.mean_width();
     info.raw_bits = receiver.bits;
     const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
-    // The 99 % quantile of the speckle of sand at half of the range, but at most full scale. No
-    // such rule covers what other sonars show.
+    // The 99 % quantile of the speckle of sand at half of the range, but at most full scale.
     if (is_fan) {
         info.white = std::min(
             1.0, speckle_p99 * power_of_db(model.levels.sand_db - model.levels.full_scale_db));

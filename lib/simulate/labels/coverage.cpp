@@ -93,12 +93,10 @@ RangeInterval ranges_within(const Corners& triangle, ConvexView view) {
     return ranges_of(polygons[now], (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]));
 }
 
-// The widest sector of azimuth in which a plane approximates a limit of elevation, which is a cone;
-// the limits move by less than 2e-5 of the ground range.
+// The widest sector of azimuth in which a plane stands for the cone of an elevation (to 2e-5).
 constexpr double widest_sector_rad = 0.0125;
 
-// The number of sides of the pyramid that replaces an echosounder's cone. Its sides touch the cone,
-// and its edges lie 0.5 % further out.
+// The sides of the pyramid around an echosounder's cone. Its edges lie 0.5 % further out.
 constexpr int cone_planes = ViewPolygon::max_planes;
 
 // Surface that reaches into a neighbouring bin by less than this does not cover that bin.

@@ -42,8 +42,7 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by);
 
-/// Drops the far sides of bodies, but not those among other hidden surface of their beam: a shadow
-/// behind a body begins where it ends.
+/// Drops the far sides of bodies, but not those among other hidden surface of their beam.
 void drop_far_sides(std::vector<HiddenPiece>& pieces, int beams);
 
 /// 1 for the bins [beams, range bins] that hold hidden surface, else 0.

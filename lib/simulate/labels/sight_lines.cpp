@@ -19,8 +19,7 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
-// The width of a line over background: a few hundredths of the height of things that are looked
-// for.
+// The width of a line over background. Feet of things 5 m away are ten times as high.
 constexpr float background_rad = 0.004F;
 
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
@@ -53,8 +52,7 @@ void cover_beams(SightLine& line, const ConeBeams& cones) {
     if (last >= 0) line.last_beam = static_cast<std::uint32_t>(last);
 }
 
-/// The parts of an edge of a line array's sample across the line of sight: each spans the width of
-/// a line, and two widths of a beam along it.
+/// The parts of an edge of a line array's sample: each as wide as a line, and two beams along it.
 float parts_of_beams(const Eigen::Vector3f& half_edge, const SightLine& line,
                      const LineWidth& width) {
     constexpr float along_beam = 2.0F;

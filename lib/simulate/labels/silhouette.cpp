@@ -156,8 +156,7 @@ void sum_and_compare(MaskWindow& window, const CellReach& reach, float min_size)
         value = value >= min_size ? 1.0F : 0.0F;
 }
 
-/// Closes the gaps of a shape of ones, fills its holes and keeps the pieces for which keep(bins) is
-/// true. The margin of the window must be empty.
+/// Closes the gaps of a shape of ones, fills its holes and keeps the pieces with keep(bins).
 template <class Keep>
 void tidy(MaskWindow& shape, const CellReach& reach, Keep keep) {
     sum_and_compare(shape, reach, 1.0F);

@@ -59,8 +59,7 @@ struct MaskWindow {
     std::vector<int> flood(int k, float value, bool diagonal);
 };
 
-/// A window around the bins of each id but 0, by id, with ones in these bins and zeros elsewhere.
-/// Its margin is wider than twice the reach.
+/// A window of ones in the bins of each id but 0; its margin is wider than twice the reach.
 std::vector<MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
                                    std::span<const std::uint16_t> ids);
 

@@ -26,8 +26,7 @@ struct ScattererLattice {
     bool exists() const { return edge_m > 0.0F; }
 };
 
-/// The transform from the sensor frame to the cells of a lattice. Its constructor is inline, so
-/// that loops that write echoes keep it in registers.
+/// The transform from the sensor frame to the cells of a lattice; inline, to stay in registers.
 struct CellFrame {
     explicit CellFrame(const ScattererLattice& lattice) {
         // In cells. The offset keeps the faces of cells off round coordinates, on which planes of a

@@ -27,8 +27,7 @@ struct Sonar {
     std::vector<double> azimuth_edges_rad;  ///< fan only: beams + 1, from starboard (-) to port (+)
     std::vector<double> beam_azimuths_rad;  ///< fan only: azimuths of the beams' axes
     bool equal_azimuth = true;              ///< the beams of a fan are equal in azimuth
-    /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
-    /// port; they repeat. Empty for a fixed sonar.
+    /// The angles of a turning head about the sensor's z axis, positive to port; empty: fixed.
     std::vector<double> head_angles_rad;
     /// The profile of the water, for soundings; null: sound goes straight.
     std::shared_ptr<const SoundProfile> sound_profile;

@@ -12,8 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-// The leading bits of a positive float (its exponent and five more) grow with it. They index a
-// histogram whose cells are at most 3 % wide.
+// The leading bits of a positive float index a histogram with cells at most 3 % wide.
 constexpr int dropped_bits = 18;
 constexpr std::size_t cells = 0x80000000U >> dropped_bits;
 

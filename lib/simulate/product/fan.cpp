@@ -35,8 +35,7 @@ constexpr double ring_step = 1.125;
 /// Number of points that sample the share of a pixel inside the sector.
 constexpr int cover_points = 64;
 
-/// The number of a pixel's points inside the sector. The points form a rank-1 lattice, whose
-/// projections on either axis do not coincide.
+/// The number of a pixel's points, a rank-1 lattice, inside the sector.
 int covered_points(const View& view, const FanFrame& frame, int column, int row) {
     constexpr int count = cover_points;
     constexpr int step = 19;

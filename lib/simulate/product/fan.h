@@ -19,8 +19,7 @@ namespace sonarsim {
 
 // Interpolation weights that keep the variance of white noise uniform. Bilinear weights, or the
 // share of a pixel that each bin covers, do not: at the middle of a bin the noise passes unchanged,
-// between two bins it is averaged. When a pixel is about as large as a bin, this shows as a fixed
-// moire pattern in every image.
+// between two bins it is averaged. Pixels as large as bins then show a fixed moire pattern.
 //
 // Here three bins have the weights (s - u)/2, 1 - s, (s + u)/2 at the place u in [-1/2, 1/2] bins
 // from the middle one. Their sum is 1 and their centroid is u, for any s. The variance of
@@ -29,8 +28,7 @@ namespace sonarsim {
 //
 //     s(u) = (2 - sqrt(1 - 3 u^2)) / 3.
 //
-// Weights without negative lobes cannot exceed 1/2 between two bins, so this is the sharpest
-// uniform kernel that makes no intensity negative.
+// Weights of 0 or more cannot exceed 1/2 between two bins: this is the sharpest such kernel.
 
 /// The weights of successive bins for pixels centred at `phases` places within a bin. They are
 /// multiples of 1/256 and add up to exactly 1, so that uniform surface stays uniform.

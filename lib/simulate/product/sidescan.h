@@ -22,8 +22,7 @@ struct Side {
 /// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
-/// The slant range of a column less its distance from nadir, at most half a bin to either side:
-/// range_min may be no multiple of a bin.
+/// The slant range of a column less its distance from nadir: at most half a bin to either side.
 double column_offset_m(const SonarConfig& config);
 
 int waterfall_columns(const SonarConfig& config);
@@ -36,8 +35,7 @@ std::optional<double> first_return_m(const Samples& samples,
                                      std::span<const std::uint8_t> is_bottom, const View& view,
                                      int beam);
 
-/// The swath of a side-scan ping on ground taken as level, at its altitude. The plane of the scan,
-/// across the bow, meets it in a line.
+/// The swath of a side-scan ping: the line in which its plane, across the bow, meets level ground.
 struct Swath {
     Eigen::Vector2d nadir_m = Eigen::Vector2d::Zero();  ///< world x, y nearest on the line
     Eigen::Vector2d port = Eigen::Vector2d::Zero();     ///< unit vector along it, world

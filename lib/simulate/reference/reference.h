@@ -22,8 +22,7 @@ struct CastSums {
     std::vector<float> weight;
 };
 
-/// The ground truth that all engines approximate, by brute force: the area-weighted mean over the
-/// visible surface in every bin, or the sum of its energies.
+/// The ground truth by brute force: the mean over the visible surface in a bin, or its energies.
 struct Reference {
     int range_bins = 0;
     int beams = 0;

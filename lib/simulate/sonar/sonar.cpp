@@ -95,8 +95,7 @@ CalibratedModel instrument_model(Sonar& sonar, const WaterConfig& water) {
     return calibrated_model(instrument, water, view, sines);
 }
 
-/// The echo model that the sonar's configuration names. For the calibrated model it also sets the
-/// azimuths of beams that are not equal in azimuth.
+/// The echo model of the sonar. Sets the azimuths of beams that are not equal in azimuth.
 std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
                                                  const WaterConfig& water) {
     switch (sonar.config.model) {

@@ -49,8 +49,7 @@ class SonarAtPose {
 /// The time from one group of beams to the next, s.
 double group_period_s(const Sonar& sonar, double sound_speed_m_s);
 
-/// Traces a ping and, from later poses, its later groups of beams. `pose`: its index on the
-/// trajectory, for the angle of a turning head.
+/// Traces a ping and, from later poses, its later groups of beams. `pose`: its index.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 

@@ -116,8 +116,7 @@ class GroundMapApplier {
                 cut(piece.between(low, low + 1.0), halvings - 1, out);
             return;
         }
-        // The strips follow each other along `u`. If `u` were the edge of greater depth, the
-        // materials would lie at wrong ranges.
+        // Strips follow each other along `u`, the edge of less depth, so that ranges stay right.
         if (std::fabs(piece.u.dot(at.direction)) > std::fabs(piece.v.dot(at.direction)))
             piece.swap_edges();
         add_by_bins(piece, at, out);

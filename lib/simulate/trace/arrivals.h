@@ -52,8 +52,7 @@ inline ArrivalLane arrival_at(float x, float y, float z) {
     return {range, x / range, y / range, z / range};
 }
 
-// Ranges of the pieces that footprints are cut into, in fused arithmetic: they agree with
-// arrival_range() to the last bit or two.
+// Ranges of pieces of footprints, in fused arithmetic: as arrival_range() to the last bit or two.
 inline float piece_range(float x, float y, float z) {
     return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
 }
@@ -64,8 +63,7 @@ inline __m256 piece_range(__m256 x, __m256 y, __m256 z) {
     return _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, _mm256_mul_ps(z, z))));
 }
 
-/// The sine of the angle between the direction of a piece and the plane across an axis of the
-/// sensor, from the piece's coordinate on that axis.
+/// The sine of a piece's angle to the plane across an axis of the sensor, by its coordinate there.
 inline float piece_sine(float coordinate_m, float range_m) {
     return coordinate_m * (1.0F / range_m);
 }

@@ -30,8 +30,7 @@ struct BouncePath : SecondPoint {
     float beam = 0.0F, beam_u = 0.0F, beam_v = 0.0F;  ///< in beams; its integer part is the beam
     float intensity = 0.0F;  ///< R_i R_h (q . v_p), Eq. 1-3; 0 for scattered sound
     bool by_water_surface = false;
-    /// The second surface reflects the sound away from the sonar. A rough surface scatters some
-    /// sound back; the paper's model has no such echo.
+    /// The second surface reflects the sound away from the sonar; the paper has no such echo.
     bool scattered = false;
 };
 

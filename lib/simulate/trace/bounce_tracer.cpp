@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
-/// that it represents; the ray starts above them.
+/// The ray that leaves a sample. It starts above the facets, below which a sample may lie.
 Ray specular_ray(const Sample& sample, float bin_m) {
     const Arrival arrival = arrival_of(sample.position);
     const float size = sample.edge_u.norm() + sample.edge_v.norm();
@@ -39,8 +38,7 @@ void set_surface(const BounceTracer& context, const Intersection& hit, const Eig
     out.reflection = context.materials[surface.material].reflection * surface.strength;
 }
 
-/// Reflects the rays that meet the water's surface before anything else (`hits`), and appends the
-/// mirror images of the points that they hit.
+/// Reflects the rays that meet the water's surface first (`hits`); appends the images of points.
 void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> rays,
                               std::span<const Intersection> hits,
                               std::vector<BounceHit>& second_hits, MultipathCounts& counts) {

@@ -8,8 +8,7 @@
 
 namespace sonarsim {
 
-/// Ascending numbers at about equal distances, in which a place is found in constant time. A table
-/// without numbers may be made, but not searched.
+/// Ascending numbers at about equal distances, in which a place is found in constant time.
 class SortedTable {
   public:
     SortedTable() = default;
@@ -45,8 +44,7 @@ class SortedTable {
     float per_unit_ = 0.0F;
 };
 
-/// The beams of a line array. It measures the sine y / r of an echo: points of one sine lie on a
-/// cone about the array's axis, the sensor's y axis.
+/// The beams of a line array, which measures the sine y / r: points of one sine lie on a cone.
 class ConeBeams {
   public:
     /// No beams.
@@ -65,8 +63,7 @@ class ConeBeams {
         const auto at = static_cast<int>(edges_(sine));
         return edges()[at] == sine ? at : at - 1;
     }
-    /// Calls use(beam, share) for the beams that receive an echo spread evenly over the sines from
-    /// `low` to `high`, which must differ.
+    /// Calls use(beam, share) for the beams of an echo spread evenly from the sine `low` to `high`.
     template <class Use>
     void for_each(float low, float high, Use use) const {
         const std::vector<float>& edge = edges();

@@ -66,8 +66,7 @@ class EchoModel {
 
     EchoModelInfo info;
 
-    /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
-    /// 0 before. The same arguments give the same bytes.
+    /// Fills the image [range bins, beams] of `ping`, which must be 0, its counts and its seconds.
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
     /// Hands the echoes of a traced ping to `use`, direct ones first, for labels: before beam
     /// pattern and pulse spread them and without random terms. Echoes of one bin have one unit.

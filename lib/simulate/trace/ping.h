@@ -40,8 +40,7 @@ struct PingDraws {
     PhiloxKey scene_key(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };
 
-/// The terms of an echo model that an image is made of. A term that the sonar's settings do not use
-/// adds nothing, even if it is requested here.
+/// The terms of an echo model that an image is made of, where the sonar's settings use them.
 struct Terms {
     static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 

@@ -31,8 +31,7 @@ Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double lat
 /// range is half of the path out from the pose of transmission and back to the pose of reception.
 /// The array of a fan measures the azimuth from the pose of reception; its transmitter is directed
 /// in elevation, so the elevation is that at transmission. In a side-scan sonar or a cone only the
-/// product of the transmitting and receiving patterns matters, so the direction is that from the
-/// pose half way between them.
+/// product of both patterns matters, so the direction is that from the pose half way between.
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place);
 

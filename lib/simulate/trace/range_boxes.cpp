@@ -140,8 +140,7 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
                                echoes.weight.data() + from, echoes.intensity.data() + from, count},
                               bins, boxes);
         sums.include(boxes.min_bin, boxes.max_bin + 1);
-        // Most boxes have one or two bins. Both kinds take the same path: a branch between them
-        // would be mispredicted half the time.
+        // Most boxes have one or two bins. A branch between them would be mispredicted.
         for (std::size_t k = 0; k < count; ++k) {
             BinSum* const first = bin_0 + boxes.first[k];
             add_two(boxes, k, *first);

@@ -45,8 +45,7 @@ inline Eigen::Vector3f middle_of(const Sample& sample, int parts) {
     return sample.position - sample.wedge / 3.0F * (1.0F - thinner * thinner) * sample.edge_u;
 }
 
-/// The extents of a footprint on either side of its centroid along a direction on which its half
-/// edges have the components u and v, over |u| + |v|.
+/// The extents of a footprint on either side of its centroid along a direction, over |u| + |v|.
 struct WedgeExtent {
     float before = 1.0F, after = 1.0F;
 };

@@ -32,8 +32,7 @@
 
 namespace sonarsim {
 
-/// Facets further off the direction to the sonar than this many slopes have no echo; it would be 54
-/// dB below that of the highlight's middle.
+/// Facets further off the direction to the sonar than this many slopes have no echo (-54 dB).
 inline constexpr float highlight_slopes = 5.0F;
 
 /// The objects of a ping that are sampled triangle by triangle.

@@ -23,8 +23,7 @@ struct RayBundle {
     float strength;
 };
 
-/// Adds the bundles of a sample's parts. Each spans about a resolution cell, as pieces of targets
-/// do, since what lies behind may end within a sample.
+/// Adds the bundles of a sample's parts, a resolution cell each: what lies behind may end within.
 void add_bundles(const Sample& sample, const View& view, std::vector<RayBundle>& bundles) {
     const Arrival middle = arrival_of(sample.position);
     if (!(middle.range_m > 0.0F)) return;

@@ -117,8 +117,7 @@ struct Caster::Trees {
     }
 };
 
-/// One tree of placed objects: the scene's own triangles, or bodies, or both, followed by copies.
-/// Their facet numbers start at `begin`.
+/// A tree of the scene's own triangles, bodies or both, then copies; facets count from `begin`.
 struct Caster::PlacedTree {
     EmbreeTree tree;
     std::uint32_t begin = 0;

@@ -117,8 +117,7 @@ class ClusterPlacer {
           outward_(out.placed_outward),
           next_number_(static_cast<std::uint32_t>(first_number)) {}
 
-    /// `T_local_mesh`: a rotation, a translation and a uniform scale. Triangles are numbered on in
-    /// the order of the calls, as a Caster does.
+    /// `T_local_mesh` has a uniform scale. Triangles are numbered on by calls, as a Caster does.
     void place(const ClusterMesh& mesh, const Ball& whole, const Eigen::Affine3d& T_local_mesh,
                std::uint32_t instance) {
         first_number_ = next_number_;

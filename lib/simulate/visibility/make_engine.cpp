@@ -13,8 +13,7 @@ namespace {
 /// In scenes of more triangles `auto` takes rays, as their time hardly depends on them.
 constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
 
-// Factors on the density of rays over many triangles, if a bin holds a mean, and on the rays along
-// a column that multipath starts from.
+// Factors on the rays over many triangles, where bins hold means, and on the starts of multipath.
 constexpr int density_over_many_triangles = 4;
 constexpr int starts_along_column = 4;
 

@@ -61,8 +61,7 @@ inline float beam_in_turn(float beam, float beams) {
     return in_turn < beams ? in_turn : 0.0F;
 }
 
-/// The beam that contains a point of the sensor frame, or -1 outside the field of view. Intervals
-/// are half-open in azimuth and elevation.
+/// The beam that contains a point of the sensor frame; -1 outside the view. Half-open intervals.
 int beam_of(const View& view, const Eigen::Vector3f& point);
 
 /// `beam_of` for many points: in float, with the fraction. It may differ within 2e-6 rad of edges.

@@ -6,8 +6,7 @@
 
 namespace sonarsim {
 
-/// The speed of sound by height: linear between two nodes, constant above and below all of them.
-/// Layer k lies below node k and above node k - 1.
+/// The speed of sound by height: linear between nodes, else constant. Layer k ends at node k.
 struct SoundProfile {
     std::vector<double> height_m;  ///< world, rising; one node at least
     std::vector<double> speed_m_s;

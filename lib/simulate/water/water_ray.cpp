@@ -51,8 +51,7 @@ double length_to(const SoundProfile& profile, const WaterRay& ray, double node_m
     return length > 0.0 ? length : infinite;
 }
 
-/// Moves a ray at a node into the next layer. The second derivative of the speed is a pulse at the
-/// node, which bends neighbouring rays differently.
+/// Moves a ray at a node into the next layer. The kink of the speed bends neighbours differently.
 void cross(const SoundProfile& profile, bool upwards, WaterRay& ray) {
     const std::size_t node = upwards ? ray.layer : ray.layer - 1;
     ray.height_m = profile.height_m[node];

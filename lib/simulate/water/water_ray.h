@@ -32,8 +32,7 @@ WaterRay on_arc(const SoundProfile& profile, const WaterRay& ray, double length_
 /// The length of an arc whose chord is `sag_m` off at most.
 double length_with_sag(const SoundProfile& profile, const WaterRay& ray, double sag_m);
 
-/// Moves a ray on to the end of its layer, or less far: `longest_m`, or where the speed changes
-/// much. Returns the length.
+/// Moves a ray on to the end of its layer, by `longest_m` at most. Returns the length.
 double advance(const SoundProfile& profile, double longest_m, WaterRay& ray);
 
 /// The true place of an echo that an instrument at `source` receives from the unit direction

@@ -194,8 +194,7 @@ Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     return T_file_gltf;
 }
 
-/// Adds the meshes of a node and of those below it. `above` has the parent's transform, material
-/// and class, which a node without its own inherits.
+/// Adds the meshes of a node and of those below it, which inherit what is `above`.
 void place_node(const Graph& graph, int index, const PlacedMesh& above, const PlacedFile& file,
                 UniqueNames& names, std::vector<PlacedMesh>& placed) {
     const tinygltf::Node& node = graph.node(index);

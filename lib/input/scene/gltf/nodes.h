@@ -16,8 +16,7 @@ namespace sonarsim {
 /// extras.sonar.material or extras.sonar.class, by `key`; "" for none.
 std::string sonar_extra(const tinygltf::Value& extras, const char* key);
 
-/// InputError for an extras.sonar of a node or a material that is not an object, or that holds
-/// another key or another type than the texts above.
+/// InputError for an extras.sonar that is no object or holds other keys or types than the above.
 void check_extras(const tinygltf::Model& model, const Location& where);
 
 /// A mesh placed by a node of the scene.

@@ -102,8 +102,7 @@ std::string surfaces_of(std::string_view text, const Location& where) {
     return document.dump();
 }
 
-/// A .glb without the parts of its JSON that are not read. Checks that its chunks lie within it,
-/// which tinygltf 2.7 does not do for the last 8 bytes.
+/// A .glb without unread parts of its JSON. Checks its chunks, as tinygltf 2.7 does not (8 bytes).
 std::string reduced_glb(std::string_view bytes, const Location& where) {
     constexpr std::uint32_t binary_type = 0x004E4942;
     constexpr std::size_t head = 12;

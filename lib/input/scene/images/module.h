@@ -23,8 +23,7 @@ struct SonarsimImageHead {
     char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none
 };
 
-/// Called before the pixels are read. Returns room for width x height x channels values, or null,
-/// which ends the reading with success.
+/// Called before the pixels are read. Returns room for width x height x channels values; null ends.
 using SonarsimImageStart = float* (*)(void* user, const SonarsimImageHead* head);
 
 /// Reads the first image of a file of `format` "png", "tiff" or "openexr" and opens no other file:

@@ -72,8 +72,7 @@ Reading read_with_module(const std::filesystem::path& path, const std::string& f
     refuse(where, "cannot be read: {}", printable(error.data()));
 }
 
-/// The world file next to an image; empty if there is none. For ".tif" its extension is ".tfw",
-/// ".tifw" or ".wld", in lower case or capitals.
+/// The world file next to an image, ".tfw", ".tifw" or ".wld" for ".tif"; empty: none.
 std::filesystem::path find_world_file(const std::filesystem::path& image) {
     const std::string extension = image.extension().string();
     std::string brief = "." + extension.substr(extension.size() < 2 ? 0 : 1, 1);

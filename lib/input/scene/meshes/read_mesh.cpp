@@ -214,8 +214,7 @@ struct ModelBuilder {
         primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
     }
 
-    /// The mesh of the node of this name. A name may occur again after others: the faces of a group
-    /// of an OBJ may stand in several places.
+    /// The mesh of the node of this name. Faces of a group of an OBJ may stand in several places.
     int mesh_of(const std::string& name) {
         const auto [found, is_new] =
             mesh_of_name.emplace(name, static_cast<int>(model.meshes.size()));

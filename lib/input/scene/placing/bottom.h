@@ -19,8 +19,7 @@ class Bottom {
     const Surface& surface() const { return surface_; }
     const Eigen::AlignedBox2d& area() const { return area_; }
 
-    /// The highest surface at the x and y of a point that lies below it, or at most `tolerance`
-    /// above it; nullopt if there is none.
+    /// The highest surface below a point, or at most `tolerance` above it; nullopt: none.
     std::optional<double> highest_below(const Eigen::Vector3d& point, double tolerance) const;
     /// The highest surface at a point seen from above.
     std::optional<double> highest(const Eigen::Vector2d& point) const {

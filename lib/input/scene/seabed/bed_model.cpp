@@ -53,8 +53,7 @@ class Borders {
         corners.insert(corners.end(), {a, b, c});
     }
 
-    /// The index into `corners` for the part of a triangle in one sediment: that of a mixture if
-    /// the triangle's middle is near a limit.
+    /// The index into `corners` for a triangle's part in a sediment, or a mixture near a limit.
     std::size_t index_of(std::size_t part, const std::array<std::uint32_t, 3>& triangle) const {
         constexpr auto steps = static_cast<float>(border_mixtures);
         if (bed_.limits.empty()) return part;

@@ -20,8 +20,7 @@ struct Rock {
     std::uint32_t shape = 0;  ///< index into rock_shapes()
 };
 
-/// The shapes of a bed's rocks: balls of diameter 1 that random planes cut. There are several, each
-/// with 20, 80 and 320 triangles, in this order.
+/// Shapes of rocks: balls of diameter 1 cut by random planes, each with 20, 80, 320 triangles.
 std::vector<Surface> rock_shapes(std::uint64_t seed);
 
 /// The rocks whose middles lie in an area of the bed, [least, largest), without their height: z of

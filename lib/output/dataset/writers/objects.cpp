@@ -23,8 +23,7 @@ Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
     return json;
 }
 
-/// The part of the seen footprints within a box around the whole object. Footprints are flat
-/// parallelograms, which overlap the edges of surface.
+/// The visible footprints, which overlap the edges of surface, within a box around the object.
 Eigen::AlignedBox3f within(const Eigen::AlignedBox3f& seen, const Eigen::AlignedBox3d& box,
                            const Pose& T_world_frame, const Pose& T_world_sensor) {
     if (box.isEmpty()) return seen;

@@ -43,8 +43,7 @@ class Beams {
     /// the real parts. `mean`: a grid that receives the powers, too; null: none.
     virtual void deposit(const PatchBlock& pieces, const PointEchoes& echoes,
                          const Amplitudes* amplitudes, EchoGrid& grid, EchoGrid* mean) const = 0;
-    /// Adds the powers of echoes that return from another place than they were sent to. The
-    /// columns, bins and powers are those of `back`.
+    /// Adds echoes that return from another place than they were sent to: `back` has the powers.
     virtual void deposit_paths(const PathEndpoint& out, const PathEndpoint& back,
                                EchoGrid& grid) const = 0;
 

@@ -82,8 +82,7 @@ class TransducerBeams final : public Beams {
                 }
                 const float a = amplitudes->re[k];
                 const float b = amplitudes->im[k];
-                // Explicit fma(): GCC contracts two adjacent products even if contraction is
-                // switched off, and other compilers do not.
+                // Explicit fma(): GCC contracts two adjacent products in any case, others do not.
                 add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
                                  std::fma(a, im, b * re));
             }

@@ -32,8 +32,7 @@ struct ExpectedEcho {
     double pulse_length_m = 0.0;  ///< PulseBand::length_m
     double grazing_rad = 0.0;
     double greatest_sine = 1.0;  ///< the sine along the array at which the view ends
-    /// Integral of the two-way pattern in the far field: over the sine of the angle along the
-    /// array, for an echosounder over the solid angle.
+    /// Integral of the two-way pattern: over the sine along the array, or over the solid angle.
     double far_integral = 0.0;
 };
 

@@ -15,8 +15,7 @@ constexpr double watt_db = 170.8;
 // Shares of the largest value of raw/.
 constexpr double recorded_share_of_sand = 1.0 / 3.0;
 constexpr double max_share_of_noise = 2.0 / 3.0;
-// Above sand a logarithmic record keeps at most this: highlights of fans need no more, and below an
-// echosounder little is stronger than the bottom.
+// Above sand a logarithmic record keeps at most this: highlights of fans need no more.
 constexpr double max_headroom_of_sand_db = 37.0;
 constexpr double max_headroom_below_db = 35.0;
 

@@ -54,8 +54,7 @@ double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double
 /// the source level. 0 where the noise lies within -300 and 200 dB.
 double float_headroom_db(double noise_db);
 
-/// The greatest power of an echo in the grid, 40 dB above the greatest noise there. A million such
-/// echoes that add in phase are finite in every beam.
+/// The greatest power of an echo in the grid. A million that add in phase are finite in a beam.
 inline constexpr float max_echo = 1e24F;
 
 /// The greatest value of an image: 300 dB above full scale, at which the receiver clips.

@@ -157,8 +157,7 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
     if (pieces.count > 0) use(pieces);
 }
 
-/// The strengths of a scene's map at pieces of a ping's samples (MapStrengths::at_points). Samples
-/// that are cut by texels would be many times as many.
+/// The strengths of a scene's map at pieces of samples. Samples cut by texels would be too many.
 class PieceStrengths {
   public:
     PieceStrengths(const TracedPing& traced, const Scene& scene, ViewShape shape);

@@ -19,8 +19,7 @@ Number squared(Number x) {
     return x * x;
 }
 
-/// The square root, with a positive imaginary part, of a number with a positive imaginary part. The
-/// C library's root differs between processors.
+/// The square root in the upper half plane. The C library's root differs between processors.
 Complex root(Complex z) {
     const double size = std::sqrt(std::norm(z));
     // The larger part is found first, so that nothing cancels.

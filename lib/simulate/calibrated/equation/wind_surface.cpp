@@ -13,8 +13,7 @@ constexpr double high_from_hz = 10e3;
 // Smallest angle at which both models are evaluated: their strengths stay finite.
 constexpr double min_grazing_rad = radians(0.1);
 
-/// The mean square slope of the waves. Below 1 m/s the report has 0.034, which jumps there; 0.0034
-/// is the value of the other branch at 1 m/s, 4.6e-3 ln 2.1.
+/// The mean square slope of the waves. Below 1 m/s that at 1 m/s, where the report jumps to 0.034.
 double square_slope(double wind_m_s) {
     return wind_m_s < 1.0 ? 0.0034 : 4.6e-3 * logarithm(2.1 * wind_m_s * wind_m_s);
 }

@@ -55,8 +55,7 @@ double rectangle_directivity(const LineArray& along, const LineArray& across);
 double piston_directivity(double width_rad);
 
 /// The receiving beam. The sides of a rectangle follow from the half-power widths. Transmitter and
-/// receiver are assumed to be equally wide in elevation, so each is sqrt(2) times as wide as both
-/// together (exact for Gaussian beams).
+/// receiver are taken as equally wide in elevation: each sqrt(2) times as wide as both together.
 double receiving_directivity(const BeamConfig& beam);
 
 /// A fan transmits evenly into its azimuth, others transmit with the receiving beam.

@@ -30,8 +30,7 @@ struct LineArray {
 ///     (p sinc(t) + (1 - p) / 2 (sinc(t) + (sinc(t + 1) + sinc(t - 1)) / 2)) / ((1 + p) / 2).
 double line_pattern(const LineArray& array, double u);
 
-/// The array whose highest side lobe is `side_lobe_db` (-42 to -13.3) below its axis and whose
-/// power is halved at half of `width_rad` off it.
+/// The array with the highest side lobe `side_lobe_db` (-42 to -13.3) and the -3 dB width.
 LineArray line_array(double width_rad, double side_lobe_db);
 
 /// The amplitude of an unfocused line array at the sine u of the angle off its axis and range r:

@@ -134,8 +134,7 @@ void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar,
     place(2, out.z);
 }
 
-/// Moves places from where straight sound and a sonar at rest have them to the true ones: each by
-/// as much as the middle of its sample.
+/// Moves places of straight sound and a sonar at rest to true ones, by the middle of the sample.
 void move_to_true(std::span<const Sample> samples, const PatchBlock& pieces,
                   const TruePlaces& places, WorldPlaces& out) {
     const Sample* last = nullptr;

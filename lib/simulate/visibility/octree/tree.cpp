@@ -95,8 +95,7 @@ constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 // would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
 const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
 
-/// The part of a triangle inside a cube; no corners if there is none. Surface in a face between two
-/// cubes belongs to the cube above the face.
+/// The part of a triangle in a cube, if any. Surface between two cubes belongs to the upper one.
 Polygon clip(const Triangle& triangle, const Cube& cube) {
     const auto& [a, b, c] = triangle;
     const Eigen::Array3d lowest = a.cwiseMin(b).cwiseMin(c);

@@ -57,8 +57,7 @@ Border border(const Context& context, const RayColumn& column, int below, int ab
                 : !b ? column.along_max
                      : a->along + a->border * (b->along - a->along);
     out.direction = direction(context.shape, column.across, sincos_small(out.along));
-    // A whole column ends with the view, where the surface most likely continues; an edge strip
-    // ends where its column begins to agree with the neighbour.
+    // At the end of the view the surface most likely continues; at that of an edge strip it ends.
     out.continuous = a && b ? a->continuous : column.whole;
     const bool both_met = a && b && !a->missed() && !b->missed();
     const auto range_of = [&](const CastRay* ray) {
@@ -121,8 +120,7 @@ float end_of_patch(float from_m, float to_m, const Sampling& sampling) {
     return std::max({to_m, from_m / longest_ratio, from_m - sampling.longest_m});
 }
 
-/// Cuts a segment that is too long. Adds all patches but the last, which stays in `segment`. Only
-/// surface at grazing incidence extends so far.
+/// Cuts a segment that is too long. Adds all patches but the last, which stays in `segment`.
 void cut_off(const Context& context, const RayColumn& column, const CastRay& ray,
              const ColumnSides& sides, Segment& segment, std::vector<Sample>& items) {
     const Border end = segment.to;
@@ -143,8 +141,7 @@ void cut_off(const Context& context, const RayColumn& column, const CastRay& ray
     segment.to = end;
 }
 
-/// Adds the samples of one column. `narrowed` marks the rays of a
-/// whole column that keep only its middle strip; null for an edge strip.
+/// Adds the samples of a column. `narrowed`: rays that keep its middle strip; null: edge strip.
 void collect(const Context& context, const RayColumn& column, const std::uint8_t* narrowed,
              std::vector<Sample>& items) {
     const int n = context.sampling.rays;

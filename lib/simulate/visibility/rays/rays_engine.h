@@ -8,8 +8,7 @@
 
 namespace sonarsim {
 
-/// The ray tracing engine, based on Embree. `scene` must outlive it. Throws std::runtime_error when
-/// Embree cannot build its tree (out of memory).
+/// The engine of rays, by Embree. `scene` must outlive it. std::runtime_error when out of memory.
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene);
 
 /// The same with a caster over the scene, whose trees engines may share. `density` n: a goal that

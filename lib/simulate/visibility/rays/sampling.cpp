@@ -101,8 +101,7 @@ Sampling sampling_for(const View& view) {
             sampling.rays = rays(1.0 * view.range_bins, 64.0);
             break;
         case ViewShape::cone:
-            // A cone is one row of bins, and a small object may be alone in its bin. The sampling
-            // about the boresight is not refined.
+            // A cone is one row of bins, where a small object may be alone in its bin.
             sampling.columns = rays(view.energies_add ? 192.0 : 96.0, 8.0);
             sampling.rays = rays(view.energies_add ? 50.0 : 36.0, 4.0);
             break;

@@ -193,8 +193,7 @@ int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_wi
     return static_cast<int>(std::min(parts, max_parts_along));
 }
 
-/// The part of a quadrilateral within the range: its middle line is cut where it leaves the ball.
-/// If it lies out of range, the area is 0.
+/// The part of a quadrilateral within the range, by its middle line; out of range the area is 0.
 StripSamples::Quad StripSamples::within_range(const Quad& quad) const {
     const Vector3f low = 0.5F * (quad.near_low + quad.far_low);
     const Vector3f high = 0.5F * (quad.near_high + quad.far_high);
