@@ -44,8 +44,7 @@ TEST_CASE("brightness: auto has two digits and grows with the gain") {
 }
 
 TEST_CASE("brightness: water does not decide what is white in a profile") {
-    // Most bins of the second sonar lie before and behind the walls of the tank, in water that
-    // scatters.
+    // Most bins of the second sonar lie before and behind the tank's walls, in scattering water.
     Mission mission = small_mission("out");
     mission.output.full_scale = 0.0;
     SonarConfig& clear = mission.sensors[0];

@@ -103,8 +103,7 @@ TEST_CASE("speckle over ripples keeps the level of the expected image") {
         }
         return db;
     };
-    // The level of one scene is off by some 0.06 dB, the mean of eight by 0.02. Patches of rays
-    // overlap a little.
+    // The level of one scene is off by some 0.06 dB, the mean of eight by 0.02.
     CHECK(std::fabs(mean_db(EngineKind::strips)) < 0.06);
     CHECK(std::fabs(mean_db(EngineKind::rays)) < 0.2);
 }

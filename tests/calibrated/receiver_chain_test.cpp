@@ -6,8 +6,7 @@
 
 namespace {
 
-/// The image of an echosounder that receives noise of -100 dB alone, without TVG. The pulse is so
-/// short that samples are independent.
+/// The image of an echosounder that receives independent noise of -100 dB alone, without TVG.
 std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping = 0) {
     const View view{0.3, 0.3, 10.0, 30.0, 2000, 1, 0.03, ViewShape::cone};
     InstrumentConfig config;

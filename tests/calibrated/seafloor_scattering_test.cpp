@@ -128,8 +128,7 @@ TEST_CASE("sea bed: the strengths of nine sediments at 100 and 400 kHz") {
 }
 
 TEST_CASE("sea bed: sediments agree with the table of the report from 10 degrees on") {
-    // APL-UW TR 9407, section IV, table 3, in water of 1,528 m/s. docs/calibrated.md says why
-    // it differs below, and of rock.
+    // APL-UW TR 9407, section IV, table 3, in water of 1,528 m/s; see docs/calibrated.md.
     struct Row {
         double phi, frequency_hz;
         std::array<double, 7> strength_db;
@@ -206,8 +205,7 @@ TEST_CASE("sea bed: the Kirchhoff part sends back a quarter of what is reflected
 }
 
 TEST_CASE("sea bed: without roughness only the volume scatters") {
-    // At normal incidence 5 sigma2 ratio^2 (1 - R)^2 / ln 10, R the power reflection, whatever
-    // the loss is, if it is small.
+    // At normal incidence 5 sigma2 ratio^2 (1 - R)^2 / ln 10, whatever the small loss is.
     SeaBed bed = sea_bed_of_grain_size(5.5);
     bed.spectral_strength *= 1e-16;
     const double k = 2.0 * pi * 2e5 / 1500.0;

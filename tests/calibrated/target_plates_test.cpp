@@ -101,8 +101,7 @@ TEST_CASE("targets: with maps they are in every ping, with the power of their te
         PlateScene plate(edge, {{.name = "dim", .lambert_db = -10.0, .slope_rms_deg = 0.0},
                                 {.name = "bright", .lambert_db = -4.0, .slope_rms_deg = 0.0}});
         apply_drawn_texels(plate, texel, draws);
-        // The texels of a triangle are those of a parallelogram with its area: at most 0.51 dB
-        // in these draws. The bound is chosen.
+        // A triangle has the texels of a parallelogram with its area. The bound is chosen.
         CHECK(greatest_error_db(plate, 9, 0.05) < 0.7);
     }
 }

@@ -45,8 +45,7 @@ std::vector<Eigen::Vector2d> drawn_places(std::size_t count) {
 }
 
 /// The variance of the difference of two places d metres apart over that of an octave: an octave
-/// of waves in all directions has 2 (1 - J0(2 pi d / wavelength)) of its variance, integrated over
-/// the logarithm of the wavelength.
+/// of waves in all directions has 2 (1 - J0(2 pi d / wavelength)) of its variance.
 double structure(double d) {
     return integral(0.0, Texture::octaves, 4000, [&](double octave) {
         const double wavelength = 1.6 * std::exp2(octave);
@@ -63,8 +62,7 @@ TEST_CASE("texture: factors have the mean 1 and the deviation of its octaves") {
         const std::vector<double> values(found.col(of).begin(), found.col(of).end());
         const Eigen::ArrayXd factors = (0.1 * std::log(10.0) * found.col(of)).exp();
         CAPTURE(of);
-        // 60,000 places: standard errors are 0.2 % and 0.3 %; the longest waves are few, so
-        // that the field is not quite normal.
+        // 60,000 places: standard errors are 0.2 % and 0.3 %. The longest waves are few.
         CHECK(std::fabs(factors.mean() - 1.0) < 0.02);
         CHECK(deviation(values) ==
               approx(octave_db * std::sqrt(1.0 * Texture::octaves)).epsilon(0.03));

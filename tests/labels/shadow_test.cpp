@@ -140,8 +140,7 @@ TEST_CASE("labels: hidden surface before the first bin and behind the last cover
 }
 
 TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") {
-    // A plate 0.6 m long hides the floor from sqrt(45) to sqrt(90) m: the main lobe is 0.2 m wide
-    // there, the traced view 1.1 m.
+    // A plate 0.6 m long hides the floor from sqrt(45) to sqrt(90) m, in a main lobe of 0.2 m.
     const Sonar sonar = sonar_above_floor(0.02);
     const Scene bare_floor = floor_below();
     Scene scene = bare_floor;

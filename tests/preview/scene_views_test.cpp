@@ -23,8 +23,7 @@ Assembly box_on_a_floor(double height_m, double yaw) {
     return assembly;
 }
 
-/// A mark at a point of the world, in a colour that nothing else has: the outline of a beam that
-/// has no width.
+/// A mark in a colour that nothing else has: the outline of a beam without width.
 BeamOutline mark(const Vector3d& at, Rgb colour) {
     return {at, {at}, colour};
 }

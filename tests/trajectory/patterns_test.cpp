@@ -151,8 +151,7 @@ TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
     Trajectory poses = lawnmower(plan);
     CHECK(poses.back().t_s == approx(diagonal).epsilon(1e-3));
     CHECK((position(poses.front()) - Vector3d(0, 0, 0)).norm() < 1e-9);
-    // In four strips of d / 4 the outer lines have d / 2, the inner ones d; two of the steps
-    // shift by d / 4, too.
+    // In four strips of d / 4 the outer lines have d / 2, the inner ones d; two shift by d / 4.
     plan.line_spacing_m = diagonal / 4.0;
     const double step = plan.line_spacing_m;
     poses = lawnmower(plan);

@@ -90,8 +90,7 @@ TEST_CASE("Errors of single poses have their standard deviations, and no others 
         const Eigen::Array4d expected(2.0, 0.1, 0.01, 0.02);
         for (int k = 0; k < 4; ++k) {
             CAPTURE_ALL(which, k);
-            // The deviation of 2000 draws has the relative error 1 / sqrt(2 n), 1.6 %; four of
-            // them are exceeded once in 16,000 runs.
+            // Four errors 1 / sqrt(2 n) of a deviation, 1.6 %: exceeded once in 16,000 runs.
             if (k == which) {
                 CHECK(std::sqrt(squares[k]) == approx(expected[k]).epsilon(4.0 * 0.0158));
             } else {

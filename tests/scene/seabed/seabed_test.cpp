@@ -8,8 +8,7 @@
 namespace {
 
 /// The power of a bed's heights at one wave vector, rad/m: the periodogram with Hann's window,
-/// whose mean is the spectrum W, m^4, smoothed over two of the bed's wave numbers. It has an
-/// exponential distribution.
+/// whose mean is the spectrum W, m^4, smoothed over two wave numbers; exponentially distributed.
 double spectrum_at(const Seabed& bed, double kx, double ky) {
     const BedGrid& grid = bed.grid;
     const auto window = [](int i, int count) {
