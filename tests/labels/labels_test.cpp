@@ -46,25 +46,25 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
     }
 }
 
-TEST_CASE("labels: the visible share of a wall behind ground that hides its foot") {
-    // 1.2 m above ground of two triangles. The solid angle of the part above the ground is free.
-    Scene scene = rectangle_scene({-1, -30, -1.2F}, {30, 30, -1.2F}, 0.5F);
-    add_rectangle(scene, {5, -1, -1.7F}, {5, 1, -0.7F}, 0);
-    const auto upper = [](double z) { return std::atan(z / (5.0 * std::hypot(5.0, 1.0, z))); };
-    const double free = (upper(-0.7) - upper(-1.2)) / (upper(-0.7) - upper(-1.7));
-    SonarConfig config = small_imaging();
-    config.elevation_deg = 60.0;
-    for (const EngineKind type : {EngineKind::automatic, EngineKind::rays}) {
-        for (const double pitch_deg : {9.0, 12.0, 15.0}) {
-            const Labelled out = label(scene, noise_free(config), pitched(pitch_deg), type);
-            CHECK(out.labels.visible_share[1] == approx(free).epsilon(0.04));
+TEST_CASE("labels: the visible share of a narrow wall behind ground that hides its foot") {
+    // 1.2 m above ground of two triangles. Angles of elevation; the view ends above the foot.
+    const ObjectSphere sphere{{5, 0, -0.7}, 1.0};
+    const LabelRequest request{.annotations = true, .annotated = {&sphere, 1}};
+    for (const double foot_m : {0.05, 0.1, 0.2}) {
+        Scene scene = rectangle_scene({-1, -30, -1.2F}, {30, 30, -1.2F}, 0.5F);
+        add_rectangle(scene, {5, -0.2F, static_cast<float>(-1.2 - foot_m)}, {5, 0.2F, -0.2F}, 0);
+        for (const double pitch_deg : {17.5, 18.0, 18.5, 19.0}) {
+            const double top = radians(6.0 - pitch_deg);
+            const double free = (top + std::atan(1.2 / 5)) / (top + std::atan((1.2 + foot_m) / 5));
+            const Labelled out = label(scene, noise_free(small_imaging()), pitched(pitch_deg),
+                                       EngineKind::automatic, request, objects_on_floor(scene));
+            CHECK(out.labels.visible_share[1] == approx(free).epsilon(0.1));
         }
     }
 }
 
 TEST_CASE("labels: two things in one bin share its echo by area and reflection") {
-    // Two panels face on at 5 m, one above the boresight, one below: equal areas and angles, so
-    // that their shares are those of their reflections, 0.6 and 0.2.
+    // Two equal panels face on at 5 m: shares are as their reflections, 0.6 and 0.2.
     Scene scene = rectangle_scene({5, -9, -9}, {5, 9, 0}, 0.2F);
     add_rectangle(scene, {5, -9, 0}, {5, 9, 9}, add_material(scene, 0.6F));
     const Sonar sonar = noise_free(small_imaging());

@@ -98,10 +98,12 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const bool many_paths = sonar->settings.multipath.on;
     const double with_paths = many_paths ? change(0.1) : 0.0;
     const double error = std::max(direct, with_paths);
-    if (has_truth && truth.noise <= measurable * std::max(goal, error))
+    const bool is_scored = std::ranges::find(truth.scored, 1) != truth.scored.end();
+    if (is_scored && truth.noise <= measurable * std::max(goal, error))
         return {pose, error, truth.noise};
-    if (mission.engine == EngineKind::octree || goal < min_refined_goal)
-        return {pose, {}, truth.noise};
+    // In bins that are all smaller than a cell, a finer image may be as wrong.
+    const bool unknown = (has_truth && !is_scored) || goal < min_refined_goal;
+    if (unknown || mission.engine == EngineKind::octree) return {pose, {}, truth.noise};
     // The noise may be all of `direct`.
     return {pose, many_paths ? with_paths : change(1.0 / 3.0), truth.noise, true};
 }
@@ -109,13 +111,13 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
 /// The key that lowers the error, as the imperative of a sentence.
 std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
+    const std::string another = "use the engine with the least error in `sonarsim report`";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
+    if (goal <= AccuracyConfig::min_relative_l1) return another;
     const double lower = std::max(goal * goal / worst, AccuracyConfig::min_relative_l1);
     return "lower accuracy.relative_l1 to " + short_text(lower) +
-           (mission.engine == EngineKind::automatic
-                ? ""
-                : ", or use the engine with the least error in `sonarsim report`");
+           (mission.engine == EngineKind::automatic ? "" : ", or " + another);
 }
 
 }  // namespace
