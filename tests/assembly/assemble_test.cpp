@@ -145,8 +145,8 @@ TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
         "rate_hz: 1}}";
     CHECK_THROWS_WITH_AS(assemble(disk.load(lines)),
                          "mission.yaml: trajectory.lawnmower.altitude_m: there is no bottom "
-                         "below 1, 2.5 m; name "
-                         "it in scene.bottom, or give z_m",
+                         "below 1, 2.5 m; name one without a hole "
+                         "in scene.bottom, or give z_m",
                          InputError);
     const std::vector<std::string> bed{
         "scene={seabed: {cell_m: 1, z_m: -12, size_m: [10, 10], material: concrete}, "

@@ -1,6 +1,5 @@
-// Prints the range of the first echo of a wall of concrete 5 m ahead, from a scene that is made
-// here; and of the first ping of each sonar of a mission the sonar's name and the number of its
-// bins with an echo, without noise.
+// Prints the range of the first echo of a wall 5 m ahead, from a scene that is made here; and of
+// the first ping of each sonar of a mission its name and its bins with an echo, without noise.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

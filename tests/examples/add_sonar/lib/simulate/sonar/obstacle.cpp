@@ -25,7 +25,8 @@ void obstacles_row(std::span<const float> ping, double white, const StripFrame& 
 
 }  // namespace
 
-/// An obstacle-avoidance sonar: one cone ahead. Record: obstacles.npy, float32 [ping, range].
+/// An obstacle-avoidance sonar: one cone that looks ahead. Its record is obstacles.npy, float32
+/// [ping, range].
 KindOfSonar obstacle_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::obstacle;
