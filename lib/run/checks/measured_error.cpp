@@ -111,13 +111,13 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
 /// The key that lowers the error, as the imperative of a sentence.
 std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
-    const std::string another = "use the engine with the least error in `sonarsim report`";
+    constexpr const char* another = "use the engine with the least error in `sonarsim report`";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
     if (goal <= AccuracyConfig::min_relative_l1) return another;
     const double lower = std::max(goal * goal / worst, AccuracyConfig::min_relative_l1);
     return "lower accuracy.relative_l1 to " + short_text(lower) +
-           (mission.engine == EngineKind::automatic ? "" : ", or " + another);
+           (mission.engine == EngineKind::automatic ? "" : std::string(", or ") + another);
 }
 
 }  // namespace
