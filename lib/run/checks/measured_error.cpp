@@ -23,7 +23,7 @@ constexpr double min_refined_goal = 0.01;
 constexpr std::uint64_t mean_rays_max = 6'000'000;
 constexpr std::uint64_t energy_rays_max = 3'000'000;  // an echo costs as much as its ray
 
-/// The noise of energies from fewer rays in a bin was 16 to 40 % in every scene that was tried.
+/// Chosen: of 5.7 rays in a bin the noise of energies was 16 to 35 % in three poses of one job.
 constexpr std::uint64_t min_energy_rays_per_bin = 8;
 
 /// The cell of a sonar's range noise; 1 cm^2 without that noise, but at most half of a bin in the

@@ -109,6 +109,7 @@ std::vector<int> unfinished(const Variants& variants, const RenderOptions& optio
 
 /// Renders two variants at a time: while one is assembled or ends, the other uses the threads.
 struct VariantQueue {
+    static constexpr int none = -1;
     const Variants& variants;
     const std::vector<int>& todo;
     SceneStore& models;
@@ -139,6 +140,7 @@ struct VariantQueue {
     std::pair<int, RenderSummary> render_next(const RenderOptions& options,
                                               const std::atomic<bool>& stop) {
         std::unique_lock guard(mutex);
+        if (ended) return {none, {}};  // meanwhile
         const int index = todo[next++];
         try {
             const Mission variant = variants[index];
@@ -160,6 +162,7 @@ struct VariantQueue {
     }
 
     void add(int index, RenderSummary& one) {
+        if (index == none) return;
         all += one;
         all.complete = all.complete && one.complete;
         all.stopped = all.stopped || one.stopped;

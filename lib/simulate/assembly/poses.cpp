@@ -76,22 +76,20 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
 /// The motion of a sonar at a pose: the difference of the neighbouring poses over that in time.
 PingMotion motion_at(const Trajectory& trajectory, std::uint32_t pose, const Sonar& sonar,
                      double sound_speed_m_s, bool has_gaps) {
-    const auto* first = &trajectory[pose > 0 ? pose - 1 : 0];
-    const auto* last = &trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
-    const double before_s = trajectory[pose].t_s - first->t_s;
-    const double after_s = last->t_s - trajectory[pose].t_s;
+    const auto* before = &trajectory[pose > 0 ? pose - 1 : 0];
+    const auto* after = &trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
+    const double before_s = trajectory[pose].t_s - before->t_s;
+    const double after_s = after->t_s - trajectory[pose].t_s;
     constexpr double rounding = 1e-6;
     if (has_gaps && after_s > 0.0 && before_s > (1.0 + rounding) * after_s)
-        first = &trajectory[pose];
+        before = &trajectory[pose];
     else if (has_gaps && before_s > 0.0 && after_s > (1.0 + rounding) * before_s)
-        last = &trajectory[pose];
-    const TimedPose& before = *first;
-    const TimedPose& after = *last;
-    const double dt = after.t_s - before.t_s;
+        after = &trajectory[pose];
+    const double dt = after->t_s - before->t_s;
     if (!(dt > 0.0)) return {};
     // The poses of the mount, without the turn of the head from ping to ping.
-    const Pose from = before.T_world_vehicle * sonar.T_vehicle_sensor;
-    const Pose to = after.T_world_vehicle * sonar.T_vehicle_sensor;
+    const Pose from = before->T_world_vehicle * sonar.T_vehicle_sensor;
+    const Pose to = after->T_world_vehicle * sonar.T_vehicle_sensor;
     const Eigen::Vector3d turn_world =
         rotation_vector(to.rotation * from.rotation.conjugate()) / dt;
     const Eigen::Quaterniond to_sensor =

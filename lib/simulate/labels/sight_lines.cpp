@@ -19,7 +19,7 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
-// The width of a line over background. Feet of things 5 m away are ten times as high.
+// The width of a line over background: 2 cm at 5 m. Chosen; 8 mrad left errors up to 0.06.
 constexpr float background_rad = 0.004F;
 
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,

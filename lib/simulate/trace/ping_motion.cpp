@@ -34,8 +34,7 @@ double elevation_of(const Eigen::Vector3d& v) {
     return arctan2(v.z(), v.head<2>().norm());
 }
 
-/// A place in the frame that measures directions, to which `turn` rotates; `measured` has the
-/// elevation at transmission.
+/// A place in the frame that measures directions; `measured` has the elevation at transmission.
 struct MovedPlace {
     Eigen::Quaterniond turn;
     Eigen::Vector3d turned, measured;

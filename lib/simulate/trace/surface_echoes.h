@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// Takes blocks of echoes. Samples stay during the call, or as long as SurfaceEchoes' patches.
+/// Takes blocks of echoes. Samples stay during the call; with patches, as long as SurfaceEchoes.
 using UseEchoes = std::function<void(const EchoBlock&)>;
 
 /// Collects echoes into blocks and hands these on.

@@ -190,7 +190,7 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         out.row_end[k] = static_cast<std::int32_t>(any_area ? end : begin);
         out.min_inner[k] = std::floor(0.5F * (inner - inner_reach));
         out.max_inner[k] = std::floor(0.5F * (inner + inner_reach));
-        // Rows follow the edge that extends further along the outer axis (inner: at most twice).
+        // Rows follow the edge that extends further along the outer axis.
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);
         const float slope = by_u ? inner_u / outer_u : inner_v / outer_v;
         const float other = by_u ? inner_v - slope * outer_v : inner_u - slope * outer_u;
