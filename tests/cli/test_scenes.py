@@ -11,7 +11,7 @@ from sandbox import (SONARSIM, Composed, Sandbox, box_gltf, box_mesh, digest, gl
 OBJECT = "{name: a, file: %s, position_m: [5, 0.25, 0.5], rpy_deg: [0, 0, 30]%s}"
 FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: [4, -2, 1]}, "
         "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 0.7}}")
-PARTICLES = ("  particles:\n    - {name: fish, target_strength_db: -20, count: 1, position_m: "
+PARTICLES = ("  particles:\n    - {name: fish, target_strength_db: 0, count: 1, position_m: "
              "[4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]}\n")
 OBJ_HEAD = "mtllib a.mtl\no crate\nusemtl Concrete\n"
 CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      range_lambda_m: 0.02\n", "    model: calibrated\n")
@@ -195,7 +195,7 @@ class Particles(Composed):
         self.assert_renders()
         for k in range(6):
             target = self.meta(k)["particles"]["fish_1"]
-            self.assertEqual((target["count"], target["target_strength_db"]), (1, -20))
+            self.assertEqual((target["count"], target["target_strength_db"]), (1, 0))
             y = 0.5 + 0.1 * k
             self.assertLess(math.dist(target["position_m"], (4, y, 0.6)), 1e-9)
             found = [one for one in self.objects_of(k) if one["name"] == "fish_1"]

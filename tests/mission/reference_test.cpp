@@ -7,10 +7,11 @@ TEST_CASE("every key has a meaning, and a default unless it is required or free 
         for (const KeyReference& key : section.keys) {
             CAPTURE_ALL(section.path, key.name);
             CHECK(!key.meaning.empty());
-            // A key that varies has one distribution, a seabed may lack a size, a rule an area.
+            // Sections that vary, seabeds, rules and targets need only one of several keys.
             const bool free = key.type == "text" || key.type == "path" || key.type == "section" ||
                               section.path == "vary.0" || key.name == "size_m" ||
-                              key.name.starts_with("area_m") || key.name == "files";
+                              key.name.starts_with("area_m") || key.name == "files" ||
+                              key.name.starts_with("target_");
             CHECK((key.required || free || !key.defaults.empty()));
         }
     }

@@ -225,8 +225,8 @@ TEST_CASE("particles: what is refused, and where") {
         "    - {name: p, position_m: [1, 2, 3], ";
     const std::string points = "target_strength_db: -40, count: 3";
     const std::string one =
-        "targets need one of target_strength_db, length_m and radius_m, other than 0 "
-        "(target_strength_db is [0, 0], length_m is ";
+        "targets need one of target_strength_db, length_m and radius_m "
+        "(target_strength_db is not given, length_m is ";
     check_refused(
         before,
         {{"count: 3", "5:7: " + one + "[0, 0], radius_m is [0, 0])"},

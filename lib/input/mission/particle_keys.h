@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -16,11 +17,11 @@ enum class ParticleRegion { box, ellipsoid };
 
 /// Point targets in the water. Pairs are limits of uniform draws.
 struct ParticlesConfig {
-    std::string name;                            ///< the targets are NAME_1, NAME_2, ...
-    std::string class_name;                      ///< "": the name
-    std::array<double, 2> target_strength_db{};  ///< points; dB re 1 m^2
-    std::array<double, 2> length_m{};            ///< fish; 0: none
-    std::array<double, 2> radius_m{};            ///< bubbles; 0: none
+    std::string name;        ///< the targets are NAME_1, NAME_2, ...
+    std::string class_name;  ///< "": the name
+    std::optional<std::array<double, 2>> target_strength_db = {};  ///< points; dB re 1 m^2
+    std::array<double, 2> length_m{};                              ///< fish; 0: none
+    std::array<double, 2> radius_m{};                              ///< bubbles; 0: none
     std::array<double, 2> count{};
     ParticleRegion region = ParticleRegion::box;
     std::array<double, 3> position_m{};  ///< middle of the region, world
@@ -68,12 +69,11 @@ void describe(auto& v, ParticlesConfig& c) {
     v.number("rise_m_s", c.rise_m_s, between(0, 10),
              "speed at which bubbles rise, in addition; at the top of the region they start again "
              "at its bottom");
-    const bool are_points = c.target_strength_db != std::array<double, 2>{};
-    v.require((c.length_m[1] > 0.0) + (c.radius_m[1] > 0.0) + are_points == 1,
+    v.require((c.length_m[1] > 0.0) + (c.radius_m[1] > 0.0) + c.target_strength_db.has_value() == 1,
               {"target_strength_db", "length_m", "radius_m"},
-              "targets need one of target_strength_db, length_m and radius_m, other than 0");
-    v.require(are_points || c.length_m[0] > 0.0 || c.radius_m[0] > 0.0, {"length_m", "radius_m"},
-              "length_m and radius_m must be above 0");
+              "targets need one of target_strength_db, length_m and radius_m");
+    v.require(c.target_strength_db || c.length_m[0] > 0.0 || c.radius_m[0] > 0.0,
+              {"length_m", "radius_m"}, "length_m and radius_m must be above 0");
     v.require(c.kind() == ParticleKind::bubbles || c.rise_m_s == 0.0, {"rise_m_s"},
               "rise_m_s is for bubbles, which have a radius_m; others have a drift_m_s");
     v.require(c.count[1] > 0.0, {"count"}, "'count' must be above 0");

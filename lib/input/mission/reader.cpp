@@ -136,7 +136,8 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
     }
     std::vector<std::string> values;
     for (const auto& [key, value] : numbers_) {
-        if (contains(keys, key)) values.push_back(key + " is " + value);
+        if (contains(keys, key))
+            values.push_back(key + (value.empty() ? " is not given" : " is " + value));
     }
     const std::string ending = values.empty() ? "" : " (" + listed(values) + ")";
     const YamlNode& fault = last != nullptr ? *last : node_;

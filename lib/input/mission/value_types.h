@@ -103,6 +103,10 @@ struct NumberType {
     void read(const YamlNode& node, const char* key, std::uint64_t& value) const;
     void read(const YamlNode& node, const char* key, std::optional<double>& value) const;
     void read(const YamlNode& node, const char* key, std::array<double, 2>& value) const;
+    void read(const YamlNode& node, const char* key,
+              std::optional<std::array<double, 2>>& value) const {
+        read(node, key, value.emplace());
+    }
     template <class T>
     std::string yaml(const T& value) const {
         return automatic && value == T{} ? "auto" : yaml_text(value);
@@ -114,6 +118,9 @@ struct NumberType {
     TypeNote note(std::integral auto) const { return {"whole number", limits}; }
     TypeNote note(const std::array<double, 2>&) const {
         return {"number or [least, largest]", limits};
+    }
+    TypeNote note(const std::optional<std::array<double, 2>>&) const {
+        return note(std::array<double, 2>{});
     }
 };
 

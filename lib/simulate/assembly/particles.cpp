@@ -57,7 +57,7 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
     const std::array<double, 2>& sizes = config.kind() == ParticleKind::fish ? config.length_m
                                          : config.kind() == ParticleKind::bubbles
                                              ? config.radius_m
-                                             : config.target_strength_db;
+                                             : *config.target_strength_db;
     std::vector<DrawnParticle> out(count_of(config, draws));
     for (std::uint32_t k = 0; k < out.size(); ++k) {
         Particle& particle = out[k].particle;
