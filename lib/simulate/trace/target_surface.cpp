@@ -24,6 +24,9 @@ constexpr float min_distance_by_radius = 1.05F;
 constexpr float weld_slack = 2e-5F;
 // The greatest size of a piece, as a share of a target's diameter: within 0.5 dB.
 constexpr float part_by_diameter = 1.0F / 8.0F;
+// The greatest size of a piece across a view or its only beam, as a share of that: a piece is
+// received as a whole.
+constexpr float part_by_view = 1.0F / 16.0F;
 // Size of a part of a highlight that one ray decides on, relative to the highlight's own, curvature
 // radius times slope; no smaller than a share of a resolution cell.
 constexpr float glint_by_highlight = 1.5F;
@@ -59,6 +62,26 @@ struct Bending {
     float strength = 1.0F, off_per_m = 0.0F;
 };
 
+/// The angles within which a view receives, beside one of its axes.
+struct ViewSlab {
+    int axis;
+    float half_sine;      ///< sine of half the angle
+    float part_m = 0.0F;  ///< the greatest extent of a piece along the axis
+
+    ViewSlab(int number, double angle_rad)
+        : axis(number), half_sine(sincos_float(0.5 * std::min(angle_rad, pi)).sin) {}
+
+    /// True if a triangle lies outside: what is beyond a side lies in a convex cone.
+    bool is_beside(const Corners& corners) const {
+        const auto is_beyond = [&](float side) {
+            return std::ranges::all_of(corners, [&](const Corner& corner) {
+                return side * corner.place[axis] > half_sine * arrival_range(corner.place);
+            });
+        };
+        return is_beyond(1.0F) || is_beyond(-1.0F);
+    }
+};
+
 /// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
@@ -66,6 +89,8 @@ class TargetSampler {
         : view_(view), field_(view), volume_(widened_view(view), Pose{}), maps_(scene.maps.get()) {
         for (const Material& material : scene.materials)
             slopes_.push_back(static_cast<float>(facet_slope(material)));
+        slabs_.emplace_back(2, view.elevation_rad);
+        if (view.beams == 1) slabs_.emplace_back(1, view.azimuth_rad);
     }
 
     /// Cuts an object. False if it lies outside or is large enough for an engine's samples.
@@ -88,6 +113,8 @@ class TargetSampler {
         const bool is_smooth = shape.turn <= placed.min_slope;
         if (highlight > max_cells * cell && is_smooth) return false;
         part_m_ = part_by_diameter * 2.0F * radius;
+        for (ViewSlab& slab : slabs_)
+            slab.part_m = part_by_view * 2.0F * slab.half_sine * range;
         min_glint_m_ = std::min(min_glint_by_cell * cell, part_m_);
         slack_m_ = (weld_slack + bending.off_per_m) * radius;
         cut(placed, shape, T_sensor_shape, scale);
@@ -144,13 +171,18 @@ class TargetSampler {
         for (int k = 0; k < 3; ++k) {
             const Corner& from = corners[k];
             const Corner& to = corners[(k + 1) % 3];
-            const float side_size = std::max(per_part * (to.place - from.place).norm(),
-                                             per_turn * (to.off - from.off).norm());
+            const Eigen::Vector3f side = to.place - from.place;
+            float side_size =
+                std::max(per_part * side.norm(), per_turn * (to.off - from.off).norm());
+            for (const ViewSlab& slab : slabs_)
+                side_size = std::max(side_size, std::fabs(side[slab.axis]) / slab.part_m);
             if (!(side_size > size)) continue;
             size = side_size;
             longest = k;
         }
         if (longest < 0 || halvings == 0) return add_piece(corners, glints);
+        const auto is_beside = [&](const ViewSlab& slab) { return slab.is_beside(corners); };
+        if (std::ranges::any_of(slabs_, is_beside)) return;
         const Corner& a = corners[longest];
         const Corner& b = corners[(longest + 1) % 3];
         const Corner& c = corners[(longest + 2) % 3];
@@ -203,7 +235,8 @@ class TargetSampler {
     const View& view_;
     GuardedField field_;
     ViewVolume volume_;
-    const GroundMaps* maps_;     ///< null: none
+    const GroundMaps* maps_;  ///< null: none
+    std::vector<ViewSlab> slabs_;
     std::vector<float> slopes_;  ///< RMS slopes of the materials' facets
     // The target that is cut:
     float part_m_ = 0.0F;       ///< the greatest size of a piece

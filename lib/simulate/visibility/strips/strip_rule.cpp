@@ -41,12 +41,12 @@ StripRule strip_rule(const View& view) {
     rule.bin_m = bin_m;
     rule.range_max_m = static_cast<float>(view.range_max_m);
     rule.sag_m = 0.09F * finer * bin_m;
-    rule.wedge_m = std::max(finer, 0.5F) * bin_m;
+    rule.wedge_m = finer * bin_m;
     rule.taper = 0.35F;
     rule.along_rad = std::numeric_limits<float>::max();
     if (view.energies_add) {
         // Energies follow the trapezoids of samples; a mean of a bin takes parallelograms.
-        rule.wedge_m *= wedge_of_energies;
+        rule.wedge_m = wedge_of_energies * std::max(finer, 0.5F) * bin_m;
         rule.taper = 1.0F;  // any
         rule.along_rad = static_cast<float>(view.shape == ViewShape::port_starboard
                                                 ? side_along_rad
