@@ -53,8 +53,7 @@ TEST_CASE("cone labels: objects alone have the bins and shadows that they have b
         const auto engine = make_engine(scene, {});
         const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
         LabelRequest request{.objects = true, .annotations = true};
-        const std::vector<ObjectSphere> anywhere(1, {Eigen::Vector3d::Zero(), 30.0});
-        request.annotated = anywhere;
+        request.annotated = {&anywhere, 1};
         const auto labels = [&](bool alone) {
             request.only_objects = alone;
             return label_ping(traced, sonar.settings, scene, objects, *engine, request);

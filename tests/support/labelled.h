@@ -7,12 +7,14 @@
 namespace sonarsim::test {
 
 inline constexpr std::array engine_types{EngineKind::rays, EngineKind::strips};
-inline constexpr LabelRequest everything{.objects = true,
-                                         .shares = true,
-                                         .classes = true,
-                                         .materials = true,
-                                         .elevation = true,
-                                         .shadow = true};
+inline const ObjectSphere anywhere{Eigen::Vector3d::Zero(), 30.0};
+inline const LabelRequest everything{.objects = true,
+                                     .shares = true,
+                                     .classes = true,
+                                     .materials = true,
+                                     .elevation = true,
+                                     .shadow = true,
+                                     .annotated = {&anywhere, 1}};
 
 /// The objects of a scene, of which the first is a floor and background.
 inline SceneObjects objects_on_floor(const Scene& scene) {

@@ -38,12 +38,17 @@ class LineTracer {
     /// Counts a line as visible. True if wanted surface may lie behind it.
     bool see(const SightLine& line) {
         solid_angles_[owner_of(line)].visible += line.solid_angle;
-        return is_wanted(line) || is_before_object(line);
+        return is_wanted(line) || is_before_edge(line);
     }
 
-    /// True if an object may lie behind some of a line over background.
+    /// True if an object may lie behind a line.
     bool is_before_object(const SightLine& line) const {
-        if (is_by_object(line)) return false;
+        return directions_.may_lie_behind(line.direction, line.range_m) &&
+               !directions_.is_empty_behind(line.direction, line.range_m);
+    }
+
+    /// True if an object may lie behind some of a line.
+    bool is_before_edge(const SightLine& line) const {
         const auto lies = [&](const Eigen::Vector3f& edge, float share) {
             const Eigen::Vector3f off = share / line.before_m * edge;
             return directions_.may_lie_behind(line.direction + off, line.before_m);
@@ -65,17 +70,26 @@ class LineTracer {
         return object;
     }
 
-    /// True if wanted surface may lie behind a line.
+    /// True if hidden surface that is wanted may lie behind a line.
     bool is_wanted(const SightLine& line) const {
-        return (is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m)) &&
-               !directions_.is_empty_behind(line.direction, line.range_m);
+        return is_shadow(line) && !directions_.is_empty_behind(line.direction, line.range_m);
     }
 
     /// Records the surfaces that a line meets, as far as they are wanted.
     void record(SightLine line, std::span<const Intersection> surfaces) {
-        met_.assign(1, owner_of(line));
         for (const Intersection& met : surfaces) {
             if (!take(line, met)) return;
+        }
+    }
+
+    /// Counts the objects behind a line as hidden.
+    void count_hidden(const SightLine& line, std::span<const Intersection> surfaces) {
+        met_.assign(1, owner_of(line));
+        for (const Intersection& met : surfaces) {
+            const std::uint32_t object = objects_.object_of(met.instance);
+            if (std::ranges::find(met_, object) != met_.end()) continue;
+            solid_angles_[object].hidden += line.solid_angle;
+            met_.push_back(object);
         }
     }
 
@@ -104,10 +118,6 @@ class LineTracer {
                 pieces_.push_back({beam, owner_of(line), 0.5F * (near_m + far_m),
                                    0.5F * (far_m - near_m), each, was_behind, is_far_side});
         }
-        if (std::ranges::find(met_, object) == met_.end()) {
-            solid_angles_[object].hidden += line.solid_angle;
-            met_.push_back(object);
-        }
         return is_wanted(line);
     }
 
@@ -130,7 +140,7 @@ class LineTracer {
 /// The parts for a line that meets these surfaces: no piece of them is deeper than a few bins.
 LineParts parts_by_surfaces(SightLine line, std::span<const Intersection> surfaces,
                             const LineWidth& width, const LineTracer& tracer) {
-    LineParts all = tracer.is_before_object(line) ? parts_over_background(line) : LineParts{};
+    LineParts all;
     for (std::size_t i = 0; i <= surfaces.size(); ++i) {
         const Intersection* const met = i < surfaces.size() ? &surfaces[i] : nullptr;
         if (!met && line.behind_background) break;
@@ -158,18 +168,27 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         engine.pass_surfaces(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
                              use);
     };
-    const std::vector<SightLine> whole = sight_lines(
+    std::vector<SightLine> whole = sight_lines(
         traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
+    // The shares of objects have lines of their own.
     std::vector<SightLine> lines;
+    for (const SightLine& line : whole) {
+        const auto keep = [&](const SightLine& part) { return tracer.is_before_object(part); };
+        if (tracer.is_before_edge(line)) divide(line, parts_of_share(line), width, keep, lines);
+    }
+    pass(lines, [&](std::size_t k, std::span<const Intersection> surfaces) {
+        tracer.count_hidden(lines[k], surfaces);
+    });
+    lines.clear();
+    std::erase_if(whole, [&](const SightLine& line) { return !tracer.is_wanted(line); });
     const auto divide_one = [&](const SightLine& line, const LineParts& parts) {
         const auto keep = [&](const SightLine& part) { return tracer.is_wanted(part); };
         divide(line, parts, width, keep, lines);
     };
     if (echoes.cones.exist()) {
         for (const SightLine& line : whole)
-            divide_one(line, tracer.is_by_object(line)       ? parts_of(line, nullptr, width)
-                             : tracer.is_before_object(line) ? parts_over_background(line)
-                                                             : LineParts{});
+            divide_one(line,
+                       tracer.is_by_object(line) ? parts_of(line, nullptr, width) : LineParts{});
     } else {
         pass(whole, [&](std::size_t k, std::span<const Intersection> surfaces) {
             divide_one(whole[k], parts_by_surfaces(whole[k], surfaces, width, tracer));

@@ -82,13 +82,15 @@ struct LineWidth {
 /// The parts of the edges of a line's sample, which may span many beams and much elevation.
 struct LineParts {
     int u = 1, v = 1;
+    bool are_scattered = false;
 };
 
 /// The parts for a line that meets this surface; null: none.
 LineParts parts_of(const SightLine& line, const Intersection* met, const LineWidth& width);
 
-/// The same for a line over background, which may have some of an object behind it.
-LineParts parts_over_background(const SightLine& line);
+/// The parts for a line that may have some of an object behind it, for the object's share. Their
+/// lines are scattered: those of a grid may all miss a thin object.
+LineParts parts_of_share(const SightLine& line);
 
 /// Appends the parts of a line that has not left its sample.
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,

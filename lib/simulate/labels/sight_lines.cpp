@@ -19,8 +19,15 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
-// The width of a line over background: 2 cm at 5 m. Chosen; 8 mrad left errors up to 0.06.
-constexpr float background_rad = 0.004F;
+// The mean distance of the lines of shares: 2.5 cm at 5 m. Chosen.
+constexpr float share_rad = 0.005F;
+
+/// The k-th of numbers that fill (0, 1) evenly, as many as there are of them.
+float scattered(std::size_t k) {
+    constexpr double golden = 0.6180339887498949;
+    const double at = 0.5 + static_cast<double>(k) * golden;
+    return static_cast<float>(at - std::floor(at));
+}
 
 SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
                       int beam) {
@@ -129,18 +136,18 @@ LineParts parts_of(const SightLine& line, const Intersection* met, const LineWid
     return {count(line.sample->edge_u), count(line.sample->edge_v)};
 }
 
-LineParts parts_over_background(const SightLine& line) {
+LineParts parts_of_share(const SightLine& line) {
     const auto count = [&](const Eigen::Vector3f& half_edge) {
         const float half_m = (half_edge - line.direction * line.direction.dot(half_edge)).norm();
-        const float number = 2.0F * half_m / (line.before_m * background_rad);
+        const float number = 2.0F * half_m / (line.before_m * share_rad);
         return static_cast<int>(std::ceil(std::clamp(number, 1.0F, max_parts_by_bins)));
     };
-    return {count(line.sample->edge_u), count(line.sample->edge_v)};
+    return {count(line.sample->edge_u), count(line.sample->edge_v), true};
 }
 
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,
             const KeepLine& keep, std::vector<SightLine>& out) {
-    if (parts.u == 1 && parts.v == 1) {
+    if (parts.u == 1 && parts.v == 1 && !parts.are_scattered) {
         out.push_back(line);
         return;
     }
@@ -150,10 +157,12 @@ void divide(const SightLine& line, const LineParts& parts, const LineWidth& widt
     const float share_v = 1.0F / static_cast<float>(parts.v);
     const Eigen::Vector3f middle = middle_of(sample, parts.u);
     for (int i = 0; i < parts.u; ++i) {
-        const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
-        const float wider = 1.0F + sample.wedge * u;
         for (int j = 0; j < parts.v; ++j) {
-            const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
+            const float aside_u = parts.are_scattered ? scattered(out.size()) : 0.5F;
+            const float aside_v = parts.are_scattered ? scattered(line.beam + 7U * i) : 0.5F;
+            const float u = 2.0F * (static_cast<float>(i) + aside_u) * share_u - 1.0F;
+            const float v = 2.0F * (static_cast<float>(j) + aside_v) * share_v - 1.0F;
+            const float wider = 1.0F + sample.wedge * u;
             const Arrival place =
                 arrival_of(middle + u * sample.edge_u + v * wider * sample.edge_v);
             const int beam =
