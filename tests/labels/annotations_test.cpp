@@ -18,7 +18,7 @@ struct FoundObjects {
                  EngineKind kind = EngineKind::rays)
         : sonar(noise_free(config)),
           objects(objects_on_floor(scene)),
-          engine(make_engine(scene, {.type = kind, .octree = {}})),
+          engine(make_engine(scene, {.type = kind})),
           traced(trace(sonar, scene, *engine, pose, 0)) {
         labels = label_ping(
             traced, sonar.settings, scene, objects, *engine,

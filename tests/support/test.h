@@ -137,7 +137,7 @@ inline View with_shape(View view, ViewShape shape) {
 }
 
 inline std::unique_ptr<VisibilityEngine> engine_of(const Scene& scene, EngineKind type) {
-    return make_engine(scene, {.type = type, .octree = {}});
+    return make_engine(scene, {.type = type});
 }
 
 }  // namespace sonarsim::test

@@ -58,7 +58,7 @@ TEST_CASE("engine: what the octree and the strips refuse of copies, bodies and b
         {&bent, "water.profile"}};
     for (const auto& scene : scenes) {
         const auto refusal = [&](EngineKind type) {
-            return unsupported({.type = type, .octree = {}}, *scene.first);
+            return unsupported({.type = type}, *scene.first);
         };
         for (const EngineKind type : {EngineKind::automatic, EngineKind::rays})
             CHECK(refusal(type).empty());

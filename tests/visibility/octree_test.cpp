@@ -1,11 +1,11 @@
-#include "simulate/visibility/octree/octree_engine.h"
+#include "simulate/visibility/octree/tree.h"
 #include "support/test.h"
 
 TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
     const Scene scene = rectangle_scene({4, -1, -1}, {4, 1, 1}, 0.5F);
     const View view{radians(60.0), radians(60.0), 0.5, 8.0, 100, 60, 0.03};
     for (const double leaf_m : {0.1, 0.05}) {
-        const Samples samples = make_octree_engine(scene, {leaf_m})->visible_surface(view, Pose{});
+        const Samples samples = make_octree_engine(scene, leaf_m)->visible_surface(view, Pose{});
         const double cubes = 2.0 / leaf_m;
         CHECK(static_cast<double>(samples.items.size()) > cubes * cubes);
         CHECK(static_cast<double>(samples.items.size()) < (cubes + 1.0) * (cubes + 1.0) + 1.0);
@@ -27,7 +27,7 @@ TEST_CASE("octree: the first cluster of leaves hides what is more than four leav
         add_rectangle(both, {x, -2, -2}, {x, 2, 2}, wall);
         int in_shadow = 0;
         for (const Sample& sample :
-             make_octree_engine(both, {0.05})->visible_surface(view, Pose{}).items) {
+             make_octree_engine(both, 0.05)->visible_surface(view, Pose{}).items) {
             if (sample.material != wall) continue;
             const Eigen::Vector3f at_plate = sample.position * (3.0F / sample.position.x());
             in_shadow += std::max(std::fabs(at_plate.y()), std::fabs(at_plate.z())) < 0.5F;
@@ -39,7 +39,7 @@ TEST_CASE("octree: the first cluster of leaves hides what is more than four leav
 TEST_CASE("octree: an empty scene has no leaves, and leaves may be too small for a scene") {
     const Scene empty = empty_scene();
     const View view{radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
-    CHECK(make_octree_engine(empty, {})->visible_surface(view, Pose{}).items.empty());
+    CHECK(make_octree_engine(empty, 0.02)->visible_surface(view, Pose{}).items.empty());
     Scene scene = floor_scene(1e6F, 0.0F, 0.5F);
-    CHECK_THROWS_AS(make_octree_engine(scene, {1e-3}), InputError);
+    CHECK_THROWS_AS(make_octree_engine(scene, 1e-3), InputError);
 }

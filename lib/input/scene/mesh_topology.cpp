@@ -43,9 +43,9 @@ int times_left(std::span<const std::array<Eigen::Vector3d, 3>> part, std::size_t
         };
         const double w0 = side(1);
         const double w1 = side(2);
+        if (!(w0 < 0.0 ? w1 < 0.0 : w0 > 0.0 && w1 > 0.0)) continue;  // most
         const double w2 = side(0);
-        const bool hits = w0 < 0.0 ? w1 < 0.0 && w2 < 0.0 : w0 > 0.0 && w1 > 0.0 && w2 > 0.0;
-        if (!hits || i == own) continue;
+        if (!(w0 < 0.0 ? w2 < 0.0 : w2 > 0.0) || i == own) continue;
         const double z = w0 * part[i][0].z() + w1 * part[i][1].z() + w2 * part[i][2].z();
         const double turns = w0 + w1 + w2;
         if (z / turns > from.z()) sum += turns > 0.0 ? 1 : -1;

@@ -22,7 +22,7 @@ const char* goal_of(const Setting& setting, double worst_relative_l1) {
     return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
 }
 
-Setting setting_of(EngineKind kind, double goal, double leaf_m = EngineSettings{}.octree.leaf_m) {
+Setting setting_of(EngineKind kind, double goal, double leaf_m = EngineSettings{}.octree_leaf_m) {
     const bool is_octree = kind == EngineKind::octree;
     return {
         .engine = std::ranges::find(engine_names, kind, &Choice<EngineKind>::value)->name,

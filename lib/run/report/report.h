@@ -21,7 +21,7 @@ struct Setting {
     std::string engine;  ///< "rays", "strips", "octree" or "auto"
     std::string name;    ///< its resolution, "relative_l1=0.03" or "leaf_m=0.02"
     EngineKind kind = EngineKind::rays;
-    double leaf_m = EngineSettings{}.octree.leaf_m;  ///< for the octree
+    double leaf_m = EngineSettings{}.octree_leaf_m;  ///< for the octree
     double relative_l1 = 0.0;                        ///< error goal of all but the octree
     bool current = false;                            ///< the mission's own setting
 };

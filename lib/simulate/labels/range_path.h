@@ -8,7 +8,6 @@
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/surface_echoes.h"
 #include "simulate/trace/taper.h"
-#include "simulate/visibility/range_extent.h"
 
 namespace sonarsim {
 

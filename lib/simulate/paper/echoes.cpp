@@ -107,6 +107,23 @@ void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
     }
 }
 
+/// The pieces of a patch whose half edges are `depth_u_m` and `depth_v_m` deep. Each piece is
+/// represented by a box in range. The edge that spans more range is cut into pieces a bin deep, or
+/// deeper at long range; the other edge, into pieces half a bin deep.
+PieceCounts pieces_for_bins(float depth_u_m, float depth_v_m, float range_m, float bin_m) {
+    // More pieces than this do not change the mean of a bin visibly.
+    constexpr float max_pieces = 64.0F;
+    // A piece has one intensity, but v . n = H / r on a plane: its ends are off by half of this.
+    constexpr float max_depth_by_range = 0.005F;
+    const float along_m = std::max(bin_m, max_depth_by_range * range_m);
+    const float across_m = 0.5F * bin_m;
+    const bool along_v = depth_u_m < depth_v_m;
+    const float u = along_v ? 2.0F * depth_u_m / across_m : 1.0F;
+    const float v = 2.0F * depth_v_m / (along_v ? along_m : across_m);
+    return {.u = std::ceil(std::min(std::max(u, 1.0F), max_pieces)),
+            .v = std::ceil(std::min(std::max(v, 1.0F), max_pieces))};
+}
+
 void cut_for_bins(float bin_m, Footprints& f) {
     const int count = f.count;
     for (int k = 0; k < count; ++k) {

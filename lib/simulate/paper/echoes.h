@@ -12,7 +12,6 @@
 #include "simulate/trace/multipath.h"
 #include "simulate/trace/range_boxes.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/range_extent.h"
 
 namespace sonarsim {
 
@@ -54,6 +53,12 @@ struct Echoes : RangeBoxes {
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
                    std::vector<std::uint32_t>* ends = nullptr);
+
+/// Pieces along either edge of a patch, at least 1.
+struct PieceCounts {
+    float u;
+    float v;
+};
 
 /// One piece per scatterer cell of edge `cell_m` that a footprint with half edges of length `u_m`
 /// and `v_m` spans, before rounding to whole numbers. At most `max_pieces` in all.

@@ -228,7 +228,7 @@ std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, cons
 }
 
 EngineSettings engine_settings(EngineKind kind, double octree_leaf_m) {
-    return {.type = kind, .octree = {.leaf_m = octree_leaf_m}};
+    return {.type = kind, .octree_leaf_m = octree_leaf_m};
 }
 
 EngineSettings engine_settings(const Mission& mission) {

@@ -66,7 +66,7 @@ std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, cons
                               const PingKey& key);
 
 /// The settings of `engine` and `octree_leaf_m`. For `auto` see simulate/assembly/assemble.h.
-EngineSettings engine_settings(EngineKind kind, double leaf_m = EngineSettings{}.octree.leaf_m);
+EngineSettings engine_settings(EngineKind kind, double leaf_m = EngineSettings{}.octree_leaf_m);
 EngineSettings engine_settings(const Mission& mission);
 
 /// The distance from a sonar straight down to the scene, m. Nothing if no surface is below.

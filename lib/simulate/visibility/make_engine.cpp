@@ -66,7 +66,8 @@ class StripsOrRays final : public VisibilityEngine {
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
-    if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
+    if (settings.type == EngineKind::octree)
+        return make_octree_engine(scene, settings.octree_leaf_m);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
     if (settings.type == EngineKind::rays || scene.sound_profile)
         return make_rays_engine(scene, caster);
@@ -86,7 +87,7 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     if (!scene.copies.empty())
         return engine + " does not support copies of shared meshes" + instead;
     return too_small_leaves((scene.bounds_max - scene.bounds_min).maxCoeff(),
-                            settings.octree.leaf_m);
+                            settings.octree_leaf_m);
 }
 
 std::string unsupported(const EngineSettings& settings, const View& view) {

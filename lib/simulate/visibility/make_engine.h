@@ -8,7 +8,6 @@
 #include "input/scene/scene.h"
 #include "simulate/visibility/caster.h"
 #include "simulate/visibility/engine.h"
-#include "simulate/visibility/octree/octree_engine.h"
 
 namespace sonarsim {
 
@@ -17,7 +16,7 @@ constexpr std::size_t many_triangles = std::size_t{1} << 21;
 
 struct EngineSettings {
     EngineKind type = EngineKind::rays;
-    OctreeOptions octree;  ///< for the octree only
+    double octree_leaf_m = 0.02;  ///< edge of the octree's leaves
     /// A caster over the scene, whose trees the rays and the strips then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };

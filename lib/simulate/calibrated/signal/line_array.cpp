@@ -140,16 +140,17 @@ double line_pattern(const LineArray& array, double u) {
 
 LineArray line_array(double width_rad, double side_lobe_db) {
     const double wanted = power_of_db(side_lobe_db);
-    const std::vector<PatternParts> parts = side_lobe_parts();
+    static const std::vector<PatternParts> parts = side_lobe_parts();
     // Below a pedestal of 0.08 (Hamming's) the far side lobes take over from the first.
     double low = 0.08;
     double high = 1.0;
-    for (int k = 0; k < 40; ++k) {
+    const bool is_uniform = side_lobe_db >= -13.27;
+    for (int k = 0; !is_uniform && k < 40; ++k) {
         const double middle = 0.5 * (low + high);
         (side_lobe(parts, middle) > wanted ? high : low) = middle;
     }
     LineArray array;
-    array.pedestal = side_lobe_db >= -13.27 ? 1.0 : low;
+    array.pedestal = is_uniform ? 1.0 : low;
     array.wavelengths = half_power(array.pedestal) / sincos(0.5 * width_rad).sin;
     return array;
 }

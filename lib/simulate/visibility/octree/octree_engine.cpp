@@ -1,9 +1,6 @@
-#include "simulate/visibility/octree/octree_engine.h"
-
 #include <algorithm>
 
 #include "core/elementary.h"
-#include "simulate/visibility/caster.h"
 #include "simulate/visibility/octree/tree.h"
 
 namespace sonarsim {
@@ -112,8 +109,8 @@ class Votes {
 
 class OctreeEngine final : public VisibilityEngine {
   public:
-    OctreeEngine(const Scene& scene, const OctreeOptions& options)
-        : VisibilityEngine(scene, Caster(scene)), tree_(scene, caster(), options.leaf_m) {}
+    OctreeEngine(const Scene& scene, double leaf_m)
+        : VisibilityEngine(scene, Caster(scene)), tree_(scene, caster(), leaf_m) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const ViewVolume volume(
@@ -130,9 +127,8 @@ class OctreeEngine final : public VisibilityEngine {
 
 }  // namespace
 
-std::unique_ptr<VisibilityEngine> make_octree_engine(const Scene& scene,
-                                                     const OctreeOptions& options) {
-    return std::make_unique<OctreeEngine>(scene, options);
+std::unique_ptr<VisibilityEngine> make_octree_engine(const Scene& scene, double leaf_m) {
+    return std::make_unique<OctreeEngine>(scene, leaf_m);
 }
 
 }  // namespace sonarsim

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "simulate/visibility/caster.h"
+#include "simulate/visibility/engine.h"
 #include "simulate/visibility/view.h"
 
 namespace sonarsim {
@@ -94,5 +95,13 @@ class Octree {
     std::uint64_t pings_ = 0;
     std::size_t bytes_ = 0;  ///< memory of all leaves
 };
+
+/// Makes the paper's octree as printed, the baseline of comparisons: every leaf in view stands for
+/// its surface with its cube's centre and one vote. In every pixel of azimuth and elevation the
+/// leaves are sorted by range, and the first cluster, which ends at a gap of more than four leaves,
+/// hides the others. The tree grows as pings come; a ping does not depend on earlier ones.
+/// `leaf_m`: the edge of leaves. `scene` must outlive the engine. InputError with
+/// too_small_leaves().
+std::unique_ptr<VisibilityEngine> make_octree_engine(const Scene& scene, double leaf_m);
 
 }  // namespace sonarsim

@@ -236,11 +236,4 @@ void pass_bent_rays(const Caster& caster, const BentWater& water, const LocalPos
         use(i, met[i]);
 }
 
-void apply_tube(const RayTube& tube, float range_m, Sample& sample) {
-    sample.normal = tube.normal;
-    sample.height_m = tube.cosine * range_m;
-    sample.area_m2 *= tube.area;
-    sample.strength = tube.strength;
-}
-
 }  // namespace sonarsim

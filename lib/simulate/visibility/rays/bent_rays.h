@@ -45,7 +45,4 @@ void pass_bent_rays(const Caster& caster, const BentWater& water, const LocalPos
                     std::span<const Ray> rays, float reach_m, int max_surfaces,
                     const UseSurfaces& use);
 
-/// Sets the true area, angle and strength of a sample on an apparent plane, at the range `range_m`.
-void apply_tube(const RayTube& tube, float range_m, Sample& sample);
-
 }  // namespace sonarsim

@@ -105,8 +105,13 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.material = ray.material;
     sample.instance = ray.instance;
     sample.widens_from_axis = context.shape == ViewShape::cone;
-    if (!context.columns.tubes.empty())
-        apply_tube(context.columns.tubes[&ray - context.columns.rays.data()], range, sample);
+    if (!context.columns.tubes.empty()) {  // the surface is not that apparent plane
+        const RayTube& tube = context.columns.tubes[&ray - context.columns.rays.data()];
+        sample.normal = tube.normal;
+        sample.height_m = tube.cosine * range;
+        sample.area_m2 *= tube.area;
+        sample.strength = tube.strength;
+    }
     return sample;
 }
 

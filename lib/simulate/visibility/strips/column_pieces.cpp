@@ -6,15 +6,10 @@ namespace {
 
 constexpr float nowhere = 1e30F;
 
-/// A line of the picture plane, at the middle of a piece.
-struct Line {
-    float w, slope;
-};
-
 /// The two shorter edges of a triangle, as far as they bound it between u = from and u = to.
-std::array<Line, 2> short_edges(const StripTriangle& t, float from, float to, float middle) {
-    const Line first{t.w0 + t.first_slope * (middle - t.u0), t.first_slope};
-    const Line second{t.w1 + t.second_slope * (middle - t.u1), t.second_slope};
+std::array<PieceEnd, 2> short_edges(const StripTriangle& t, float from, float to, float middle) {
+    const PieceEnd first{t.w0 + t.first_slope * (middle - t.u0), t.first_slope};
+    const PieceEnd second{t.w1 + t.second_slope * (middle - t.u1), t.second_slope};
     if (t.no_first || (t.u1 <= from && !t.no_second)) return {second, second};
     if (t.no_second || t.u1 >= to) return {first, first};
     return {first, second};
@@ -42,12 +37,12 @@ bool ColumnPieces::add(const StripTriangle& t, std::uint32_t index, float left, 
     if (!(to > from)) return false;
     const float middle = 0.5F * (from + to);
     const float half = 0.5F * (to - from);
-    const Line whole{t.w0 + t.long_slope * (middle - t.u0), t.long_slope};
+    const PieceEnd whole{t.w0 + t.long_slope * (middle - t.u0), t.long_slope};
     const auto [a, b] = short_edges(t, from, to, middle);
-    const Line low_a = t.middle_above ? whole : a;
-    const Line low_b = t.middle_above ? whole : b;
-    const Line high_a = t.middle_above ? a : whole;
-    const Line high_b = t.middle_above ? b : whole;
+    const PieceEnd low_a = t.middle_above ? whole : a;
+    const PieceEnd low_b = t.middle_above ? whole : b;
+    const PieceEnd high_a = t.middle_above ? a : whole;
+    const PieceEnd high_b = t.middle_above ? b : whole;
     const auto low_at = [&](float d) {
         return std::max(low_a.w + low_a.slope * d, low_b.w + low_b.slope * d);
     };
@@ -110,14 +105,9 @@ void ColumnPieces::pad() {
     for (int i = count_; i < blocks * lanes; ++i) {
         PieceBlock& p = blocks_[i / lanes];
         const int k = i % lanes;
-        for (PieceBlock::Row* row :
-             {&p.middle, &p.low_a, &p.low_a_slope, &p.low_b, &p.low_b_slope, &p.high_a,
-              &p.high_a_slope, &p.high_b, &p.high_b_slope, &p.q, &p.q_u, &p.q_w, &p.w, &p.q_min})
-            (*row)[k] = 0.0F;
         p.from[k] = p.w_min[k] = nowhere;
         p.to[k] = p.w_max[k] = -nowhere;
         p.q_max[k] = -1.0F;
-        p.number[k] = no_number;
     }
     const int groups = (blocks + lanes - 1) / lanes;
     bounds_.resize(groups);

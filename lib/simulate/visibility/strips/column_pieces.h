@@ -36,8 +36,6 @@ struct PieceEnd {
 /// The pieces of one column, front to back by clusters. Memory is reused from column to column.
 class ColumnPieces {
   public:
-    static constexpr std::int32_t no_number = -1;
-
     /// `to_border_w`: the greatest |w| of the view in the column.
     void gather(const std::vector<StripTriangle>& triangles,
                 std::span<const std::uint32_t> column_triangles, float left, float right,

@@ -22,11 +22,6 @@ struct StripRule {
     float along_rad;  ///< largest angle that a sample spans along its column
 };
 
-StripRule strip_rule(const View& view);
-
-/// Parts of each least column of a frame with such triangles (StripTriangles::thinness).
-int column_parts(const StripRule& rule, float thinness);
-
 /// An interval of w on a line u = const, and how its ends move with u.
 struct VisibleInterval {
     float low, high;
