@@ -97,8 +97,7 @@ def text_of(mission: pathlib.Path, options: list[str]) -> str:
 
 
 def stock_named(mission: pathlib.Path, options: list[str], kinds, clutter: tuple) -> list[str]:
-    """The kinds of the stock that stand in lists or on lines after the word `stock`, and those of clutter where
-    the mission has some."""
+    """The kinds of the stock in lists or on lines after the word `stock`, and those of clutter if there is some."""
     text = re.sub(r"#.*", "", text_of(mission, options))
     words = re.findall(r"\w+", " ".join(re.findall(r"\bstock\b(?:[^\n\[]*\[[^\]]*\])?[^\n]*", text)))
     if re.search(r"\bclutter[\"']?\s*[:.=]", text):

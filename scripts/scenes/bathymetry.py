@@ -1,6 +1,5 @@
-"""A bed as a survey delivers it: a GeoTIFF in UTM coordinates (zone 32 north), 55 x 50 m in pixels of 25 cm,
-heights in metres as floats. Sand waves, a channel, the scar of a trawl, a mound and a hole that nobody
-surveyed."""
+"""A bed as a survey delivers it: a GeoTIFF in UTM coordinates (zone 32 north), 55 x 50 m in pixels of 25 cm, heights
+in metres as floats. Sand waves, a channel, the scar of a trawl, a mound and a hole that nobody surveyed."""
 import math
 import struct
 
@@ -12,8 +11,7 @@ NO_DATA = -9999.0
 
 
 def height(x, y, relief):
-    """The height at x m east and y m north of the south-west corner. The waves run from the south-west to the
-    north-east, so that no mirrored map looks like this one."""
+    """The height at x m east and y m north of the south-west corner. Diagonal waves tell it from a mirrored map."""
     along = 0.8 * x + 0.6 * y
     z = -21.0 + 0.02 * x + relief(x, y)
     z += 0.25 * math.sin(2 * math.pi * along / 7.0 + 0.4 * math.sin(0.15 * (0.6 * x - 0.8 * y)))

@@ -34,8 +34,7 @@ def material_at(x, y, ragged, draw):
 
 
 def build():
-    """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it
-    to 2.4 m ahead."""
+    """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it to 2.4 m ahead."""
     swell = Relief(0.5, 0.03, 2, 7)
     stones = Relief(0.05, 0.0055, 2, 20)
     draw = Draws(40)

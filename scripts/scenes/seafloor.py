@@ -6,8 +6,7 @@ from .shapes import add_grid, add_sphere, made
 
 
 def boulders(count, half_size, radius_min, radius_max, height, seed):
-    """`count` deformed spheres of rock, sunk into the floor z = height(x, y), |x|, |y| below
-    `half_size`. Small ones are more frequent."""
+    """`count` deformed spheres of rock, most of them small, sunk into z = height(x, y), |x|, |y| below `half_size`."""
     draw = Draws(seed)
     parts = []
     for k in range(count):
@@ -21,8 +20,7 @@ def boulders(count, half_size, radius_min, radius_max, height, seed):
 
 
 def build(cells, area_m):
-    """cells x cells x 2 triangles over area_m x area_m metres, and a hundred boulders (fewer on
-    less than 1 ha)."""
+    """cells x cells x 2 triangles over area_m x area_m metres, and a hundred boulders (fewer on less than 1 ha)."""
     half = area_m / 2
     relief = Relief(40.0, 0.28, 6, 1)
     ripple_strength = Relief(25.0, 0.03, 2, 50)

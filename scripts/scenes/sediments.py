@@ -54,8 +54,7 @@ def scratches():
 
 
 def basin_decibels():
-    """The pixels of scenes/basin.obj: patches of paint and dirt, grain, and scratches. Sizes and decibels are by eye, after
-    fans of a painted concrete floor."""
+    """The pixels of scenes/basin.obj: paint, dirt, grain and scratches, by eye after fans of a painted concrete floor."""
     def grain(x, y):
         return sum(amplitude * noise2(x, y, spacing, 61 + k) for k, (spacing, amplitude) in enumerate(OCTAVES))
     rows = pixels(round(WIDE_M / BASIN_PIXEL_M), round(LONG_M / BASIN_PIXEL_M), BASIN_PIXEL_M, grain)

@@ -115,8 +115,7 @@ def add_sphere(part, centre, radii, levels, bumps=lambda direction: 1.0):
 
 
 def add_grid(part, xs, ys, height, material_of=None):
-    """The surface z = height(x, y) over a grid, two triangles per cell, in a part of its own. material_of(x, y, z) chooses
-    the material of a cell by its corner."""
+    """The surface z = height(x, y) over a grid as a part of its own, with material_of(x, y, z) of a corner of each cell."""
     def material(face):
         row, column = divmod(face[0], len(xs))
         return material_of(xs[column], ys[row], part.vertices[3 * face[0] + 1])

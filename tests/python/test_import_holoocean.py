@@ -20,6 +20,8 @@ SCENARIO = {"name": "Dam Hovering", "main_agent": "auv0", "ticks_per_sec": 20, "
 WRONG = (
     ('"Azimuth": 60, "El', '"Azimuth": 400, "El', "agents[0].sensors[1].configuration.Azimuth must be from 0.001 to 360, not 400"),
     ('"RangeMax": 6', '"RangeMax": 0.4', "configuration.RangeMax must be above RangeMin"),
+    ('"RangeBins": 48', '"RangeBins": 48, "RangeRes": 1', "configuration.RangeBins and RangeRes exclude each other"),
+    ('"Hz": 10', '"Hz": 100', "agents[0].sensors[1].Hz must be from 1e-06 to 20, not 100"),
     ('"RangeBins": 48', '"RangeBins": 4.8', "RangeBins must be a whole number, not 4.8"),
     ('"RangeRes": 0.05', '"RangeRes": 1e-6', "bins by RangeRes must be from 1 to 8192, not 7500000"),
     ('"rotation": [0, 0, 90]', '"rotation": [0, 90]', "agents[0].rotation must be a list of 3 numbers"),
@@ -51,7 +53,7 @@ class HoloOcean(ToolTest):
                      "      translation_m: [0.1, 0, 0]", "      rpy_deg: [0, 10, 0]", "    azimuth_deg: 60",
                      "    range_bins: 48", "      add_sigma: 0.1", "      mult_sigma: 0.2",     # the root of 0.04
                      "      range_lambda_m: 0.05", "      scale_with_range: true", '      method: "cluster"',
-                     "      epsilon_bins: 4", '      mode: "reduce"', "    range_bins: 150",    # 7.5 m in bins of 5 cm
+                     "      epsilon_bins: 4", '      mode: "reduce"', "    range_bins: 75",    # 7.5 m in bins of 5 cm, every other on one side
                      "      scale_with_range: false", "    opening_deg: 20", "    azimuth_bins: 120", "  rate_hz: 20",
                      "    # 'InitOctreeRange' has no counterpart: there is no octree to prepare"):
             self.assertIn("\n" + line + "\n", "\n" + text)
@@ -82,6 +84,19 @@ class HoloOcean(ToolTest):
         self.assertEqual(result.stderr.count("it looks to one side"), 2)
         self.assertEqual(result.stdout.count("azimuth_deg: 85"), 1)
         self.assertEqual(len(self.validated(result.stdout)["sensors"]), 13)
+
+    def test_sonars_look_where_those_of_holoocean_do(self):
+        def looks(kind, rotation, agent="HoveringAUV", socket=""):
+            sensor = {"sensor_type": kind, "rotation": rotation, "socket": socket, "location": [1, 2, 3]}
+            text = self.run_import({"agents": [{"agent_type": agent, "sensors": [sensor]}]}).stdout
+            return text[text.index("translation_m: "):].splitlines()[:2]
+        for kind in ("ProfilingSonar", "SidescanSonar", "SinglebeamSonar"):
+            for rotation, rpy in (([0, 90, 0], [0, 0, 0]), ([0, 0, 0], [0, -90, 0]), ([0, 90, 30], [0, 0, 30]),
+                                  ([0, 60, 0], [0, -30, 0]), ([90, 0, 0], [90, 0, -90])):
+                self.assertEqual(looks(kind, rotation)[1].strip(), f"rpy_deg: {[float(one) for one in rpy]}", (kind, rotation))
+            self.assertEqual(looks(kind, [0, 0, 0], "TorpedoAUV", "SonarSocket"),
+                             ["translation_m: [3.0, 2.0, -1.0]", "      rpy_deg: [0.0, 0.0, 0.0]"])
+        self.assertEqual(looks("ImagingSonar", [0, 0, 0], "TorpedoAUV", "SonarSocket")[1].strip(), "rpy_deg: [0.0, 90.0, 0.0]")
 
     def test_names_rates_and_unknown_sonars(self):
         names = ("fls", "fls", "fls_2", "fls", "fls 2")

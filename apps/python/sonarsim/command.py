@@ -11,8 +11,7 @@ PACKAGES = {"numpy": "python3-numpy", "PIL": "python3-pil", "scipy": "python3-sc
 
 
 def need(command, *modules):
-    """Ends the program with exit code 2 and one sentence if one of these modules is not installed. Call it before
-    they are imported."""
+    """Ends the program with exit code 2 and one sentence unless these modules are installed. Call it before imports."""
     missing = [PACKAGES.get(module, module) for module in modules if importlib.util.find_spec(module) is None]
     if missing:
         print(f"sonarsim {command}: install {' '.join(missing)} "

@@ -406,9 +406,8 @@ def own_file(folder, inner, is_folder=False):
 
 
 def read_png(data):
-    """A grey or RGB PNG of 8 or 16 bits, or one with a colour table of 8 bits, that is not interlaced,
-    as [row, column] or [row, column, 3]; with a colour table the numbers of the colours, which are ids.
-    ValueError for any other."""
+    """A PNG of 8 or 16 bits in grey or RGB, or of 8 bits with a colour table, that is not interlaced, as [row, column]
+    or [row, column, 3]; with a colour table the numbers of the colours, which are ids. ValueError for any other."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise Damage("is not a PNG")
     packed, header, at = [], None, 8
@@ -450,8 +449,7 @@ def unpacked(data, expected):
 
 
 def unfiltered(filters, rows):
-    """PNG rows [row, column, byte of the pixel] without their filters: none, left or above.
-    sonarsim uses no others."""
+    """PNG rows [row, column, byte of the pixel] without their filters: none, left or above, as sonarsim writes them."""
     out = np.array(rows)
     for y in np.flatnonzero(filters):
         if filters[y] == 1:

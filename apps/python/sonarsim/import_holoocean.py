@@ -13,8 +13,7 @@ from .command import replaced, run
 
 NUMBER, NOT_IN_NAMES = (int, float), r"[^A-Za-z0-9_-]"
 CALLED = {dict: "an object", list: "a list", str: "text", bool: "true or false", NUMBER: "a number"}
-# The kind of HoloOcean, that of sonarsim, the keys that it lacks, and the default of RangeMin, RangeMax and Azimuth.
-# HoloOcean 2.4 has three forms of each.
+# HoloOcean's kind, which has three forms in 2.4; ours; the keys that it lacks; defaults of RangeMin, RangeMax, Azimuth.
 KINDS = (("ImagingSonar", "imaging", {"opening_deg"}, (0.1, 10, 120)),
          ("ProfilingSonar", "profiling", {"opening_deg"}, (0.5, 75, 120)),
          ("SidescanSonar", "sidescan", {"opening_deg", "azimuth_bins", "noise.range_lambda_m"}, (0.5, 35, 170)),
@@ -35,8 +34,11 @@ PARAMETERS = {       # form, key and limits; without them from 0 on
     "MultCov": ("variance", "noise.mult_sigma"), "RangeSigma": ("number", "noise.range_lambda_m"),
     "ScaleNoise": ("flag", "noise.scale_with_range"), "MultiPath": ("multipath", "multipath.method"),
     "ClusterSize": ("whole", "multipath.epsilon_bins", 0, 8192), "AzimuthStreaks": ("streaks", "streaks.mode", -1, 1),
-    "WaterDensity": ("number", "water.density_kg_m3", 0.1, 1e5),
-    "WaterSpeedSound": ("number", "water.sound_speed_m_s", 0.1, 1e5)}
+    "WaterDensity": ("number", "water.density_kg_m3", 900, 1300),
+    "WaterSpeedSound": ("number", "water.sound_speed_m_s", 1000, 2000)}
+EITHER = (("RangeBins", "RangeRes"), ("AzimuthBins", "AzimuthRes"), ("AddSigma", "AddCov"), ("MultSigma", "MultCov"))
+# HoloOcean's sonars look along x. These look down in a mission, and TorpedoAUV has sockets that look down.
+LOOK_DOWN, SOCKETS_DOWN = ("profiling", "sidescan", "echosounder"), ("SonarSocket", "CameraSocket")
 NO_COUNTERPART = {name: why for names, why in (
     ("ElevationBins ElevationRes OpeningAngleBins OpeningAngleRes CentralAngleBins CentralAngleRes AzimuthRayCount "
      "AzimuthRayRes ElevationRayCount ElevationRayRes OpeningAngleRays CentralAngleRays CentralAngleEuclidian "
@@ -68,9 +70,28 @@ def number(where, items, key, low=0, high=1e8):
     return value if low <= value <= high else wrong(f"{where}{key} must be from {low:g} to {high:g}, not {value}")
 
 
-def vector(where, items, key):
-    values = [number(where, {key: one}, key, -1e8) for one in take(where, items, key, list, [0, 0, 0])]
+def vector(where, items, key, limit=1e8):
+    values = [number(where, {key: one}, key, -limit, limit) for one in take(where, items, key, list, [0, 0, 0])]
     return values if len(values) == 3 else wrong(f"{where}{key} must be a list of 3 numbers")
+
+
+def turned(vector, rpy):
+    x, y, z = vector
+    (r, p, h), (R, P, H) = zip(*((math.cos(one), math.sin(one)) for one in map(math.radians, rpy)))
+    y, z = y * r - z * R, y * R + z * r
+    x, z = x * p + z * P, z * p - x * P
+    return x * h - y * H, x * H + y * h, z
+
+
+def mounted(rpy, default, socket):
+    """Roll, pitch and yaw of a mount on top of the default one, in place of `rpy` relative to the socket. Degrees."""
+    bow, port, up = (turned(turned(turned(axis, [0, -default, 0]), rpy), [0, socket, 0])
+                     for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    level = math.hypot(bow[0], bow[1])
+    is_upright = level < 1e-9
+    yaw = math.atan2(-port[0], port[1]) if is_upright else math.atan2(bow[1], bow[0])
+    turns = 0 if is_upright else math.atan2(port[2], up[2]), math.atan2(-bow[2], level), yaw
+    return [round(math.degrees(one), 6) + 0.0 for one in turns]
 
 
 def value_of(where, items, name, defaults):
@@ -90,13 +111,22 @@ def value_of(where, items, name, defaults):
             "variance": math.sqrt(abs(value)), "whole": int(value)}.get(form, value)
 
 
-def sonar_of(where, sensor, kind, every):
+def sonar_of(where, sensor, kind, every, agent):
     """The section of a sonar, its keys of the water, and remarks on what has no counterpart."""
     own, lacks, defaults = SONARS[kind]
-    mount = {"translation_m": vector(where, sensor, "location"), "rpy_deg": vector(where, sensor, "rotation")}
+    place, rpy = vector(where, sensor, "location"), vector(where, sensor, "rotation", 360)
+    default = 90 * (own in LOOK_DOWN)
+    socket = 90 * (agent == "TorpedoAUV" and sensor.get("socket") in SOCKETS_DOWN)
+    mount = {"translation_m": [round(one, 6) for one in turned(place, [0, socket, 0])] if socket else place,
+             "rpy_deg": mounted(rpy, default, socket) if default or socket else rpy}
     sonar = {"kind": own, "mount": mount, "every": every} | ({"azimuth_deg": 85} if kind == "GPUSidescanSonar" else {})
     remarks = [f"{kind}: {REMARKS[kind]}"] if kind in REMARKS else []
     given, inside = take(where, sensor, "configuration", dict, {}), where + "configuration."
+    for one, other in EITHER:
+        if one in given and other in given:
+            wrong(f"{inside}{one} and {other} exclude each other")
+    if kind == "SidescanSonar" and not {"RangeBins", "RangeRes"} & set(given):
+        given = {"RangeRes": 0.05} | given
     for name in given:
         key = PARAMETERS.get(name, ("", ""))[1]
         if key and key not in lacks:
@@ -105,6 +135,8 @@ def sonar_of(where, sensor, kind, every):
         else:
             why = f"a sonar of kind {own} has no {key}" if key else NO_COUNTERPART.get(name, "it is not known")
             remarks.append(f"'{' '.join(name.split())[:60]}' has no counterpart: {why}")
+    if kind == "SidescanSonar":     # its bins are those of both sides
+        sonar["range_bins"] = max(sonar["range_bins"] // 2, 1)
     if "add_sigma" in sonar.get("noise", {}):       # HoloOcean's noise grows with range only if ScaleNoise is set
         sonar["noise"].setdefault("scale_with_range", False)
     if sonar.get("range_min_m", defaults[0]) >= sonar.get("range_max_m", defaults[1]):
@@ -120,7 +152,7 @@ def sensors_of(where, agent, ticks):
         here = f"{where}sensors[{k}]."
         kind = take(here, sensor, "sensor_type", str, "") if isinstance(sensor, dict) else ""
         if kind in SONARS:
-            sonars.append((here, sensor, kind, number(here, {"Hz": ticks} | sensor, "Hz", 1e-6)))
+            sonars.append((here, sensor, kind, number(here, {"Hz": ticks} | sensor, "Hz", 1e-6, ticks)))
         else:
             known = f"; it has {', '.join(SONARS)}" if "onar" in kind else ""
             say(f"{here}sensor_type '{kind}' is left out: sonarsim does not have it{known}")
@@ -129,7 +161,7 @@ def sensors_of(where, agent, ticks):
         base = re.sub(NOT_IN_NAMES, "_", take(here, sensor, "sensor_name", str, kind))[:60] or "sonar"
         name = next(one for one in (base, *(f"{base}_{k}" for k in range(2, 10**4))) if one not in sections)
         every = math.floor(fastest / rate + 0.5)
-        sections[name], own, remarks = sonar_of(here, sensor, kind, every)
+        sections[name], own, remarks = sonar_of(here, sensor, kind, every, agent.get("agent_type"))
         waters.append((here, own, remarks))
         if abs(fastest / every - rate) > 0.01 * rate:
             remarks.append(f"{rate:.4g} Hz become {fastest / every:.4g} Hz: a sonar pings at every n-th pose, of which "
@@ -151,12 +183,14 @@ def mission_of(top, arguments):
         wrong(f"no agent is called '{wanted}'" if agents else "a scenario needs a list of agents")
     agent, where = (agents[k := names.index(wanted) if wanted else 0], f"agents[{k}].")
     sensors, water, rate = sensors_of(where, agent, number("", {"ticks_per_sec": 30} | top, "ticks_per_sec", 1e-6))
-    start, turn = vector(where, agent, "location"), vector(where, agent, "rotation")
+    start, turn = vector(where, agent, "location"), vector(where, agent, "rotation", 360)
     _, pitch, yaw = map(math.radians, turn)
     bow = math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), -math.sin(pitch)
     end = [round(at + 10 * step, 6) for at, step in zip(start, bow)]
     remarks = [f"'{' '.join(name.split())}' has no counterpart: there is no octree to prepare"
                for name in top if name.startswith(("octree_", "env_"))]
+    remarks += [f"{where}{name} has no counterpart: `vary` draws poses"
+                for name in ("location_randomization", "rotation_randomization") if name in agent]
     remarks += ["other agents are left out: a mission has one vehicle"] * (len(agents) > 1)
     remarks += ["a scenario says where the agent starts, not where it goes: the mission goes 10 m ahead; write a "
                 "trajectory of your own", "the world is a level of the game engine: export it, or name another scene"]

@@ -227,8 +227,7 @@ class Mission:
         return (ping for k, rest in shares for ping in self.variants[k].pings(sensor, threads=threads, shard=rest))
 
     def _shares(self, *shards: tuple[int, int]) -> list[tuple[int, tuple[int, int]]]:
-        """The variants of a shard, or of a shard of a shard, each with the shard of its pings. A mission
-        without variants counts as one."""
+        """The variants of a shard, or of a shard of a shard, each with the shard of its pings; at least one."""
         shares = [(k, (0, 1)) for k in range(max(1, len(self.variants)))]
         for index, count in shards:
             cut = [(k, (first + step * index, step * count)) for k, (first, step) in shares]
@@ -246,8 +245,7 @@ class Mission:
 
 
 class Variants(Sequence[Mission]):
-    """The variants of a mission, in order. Each reads its files for its first ping, and its memory is
-    freed when nothing refers to it any more."""
+    """The variants of a mission, in order. Each reads its files for its first ping; the last reference frees it."""
 
     def __init__(self, loaded: _sonarsim.LoadedMission):
         self._loaded = loaded

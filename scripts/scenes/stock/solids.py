@@ -31,8 +31,7 @@ def bridged(vertices, rings, loop):
 
 
 def lathe(profile, sides=24, squash=1.0):
-    """The surface of revolution about z of (radius, height) pairs, with lids; a profile that ends where
-    it starts is a ring. `squash` makes it elliptic."""
+    """A surface of revolution about z of (radius, height) pairs, with lids or closed to a ring; `squash`: elliptic."""
     loop = profile[0] == profile[-1]
     profile = profile[:-1] if loop else [(0, profile[0][1]), *profile, (0, profile[-1][1])]
     vertices, rings = [], []

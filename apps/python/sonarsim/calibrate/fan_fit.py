@@ -31,8 +31,7 @@ HEIGHT_TOLERANCE, MAX_OUTSIDE = 0.015, 0.3
 
 
 class Fans(Sensor):
-    """The bins that fans resolve: a pixel in range, and across a pixel at half of the range. `pixels`: [fan, row, column],
-    with the sonar at the bottom."""
+    """The bins that fans resolve: a pixel in range, and across one at half of the range. `pixels`: [fan, row, column]."""
 
     def __init__(self, name, pixels, azimuth_deg, range_m):    # pylint: disable=super-init-not-called
         half, (low, high) = 0.5 * np.radians(azimuth_deg), range_m
@@ -211,8 +210,7 @@ def grey_figures(display, fans, law, numbers, where=""):
 
 
 def fit_fans(windows, start, full_scale_db, ring_error):
-    """(Fit, figures) of the windows of one sonar, each the fitted and the judged pictures [fan, row, column], the Fans and
-    the Echoes."""
+    """(Fit, figures) of the windows of a sonar: fitted and judged pictures [fan, row, column], the Fans and the Echoes."""
     fit, receiver = Fit(copy.deepcopy(start.instrument), 0.0), start.instrument["receiver"]
     displays = [[Display(fans, echoes, start, seed) for _, fans, echoes in windows] for seed in (1, 2)]
     greys = [[fans.polar(part) for part in parts] for parts, fans, _ in windows]

@@ -70,8 +70,7 @@ def drop_wide(fit):
 
 
 def joined(fits):
-    """One Fit of several windows of a sonar: means of their numbers, weighted by 1 / variance. An interval also holds half
-    of what the windows differ by."""
+    """One Fit of a sonar's windows: means weighted by 1 / variance; an interval also holds half of what they differ by."""
     whole = fits[0]
     for other in fits[1:]:
         whole.notes += [note for note in other.notes if note not in whole.notes]

@@ -1,5 +1,4 @@
-"""Gain and noise of records: noise, gain and law are laid over the echoes of usual scenes until they have the levels of the
-pings."""
+"""Gain and noise of records: noise, gain and law are applied to echoes of usual scenes until levels are the pings'."""
 import numpy as np
 from scipy import optimize
 

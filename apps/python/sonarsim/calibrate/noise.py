@@ -1,5 +1,4 @@
-"""The level of the noise and its growth with range: the lowest law of range on which many blocks of bins lie, since
-echoes only add to noise."""
+"""The level of the noise and its growth with range: the lowest law on which many blocks lie, as echoes only add."""
 import dataclasses
 
 import numpy as np
@@ -53,8 +52,7 @@ def noise_blocks(recording, law):
 
 
 def spread_of_groups(sums, group):
-    """The spread of the mean log powers of groups of beams: 1.48 times the (upper) median distance from their median,
-    so that a bright point does not count."""
+    """The robust spread of the mean log powers of groups of beams: 1.48 times the (upper) median distance from their median."""
     counts = np.bincount(group, minlength=GROUPS)
     outer = counts > 0
     if outer.sum() < 3:

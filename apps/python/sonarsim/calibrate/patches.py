@@ -107,8 +107,7 @@ def structure(x, rows, columns):
 
 
 def third_moment(x):
-    """The third central moment k of independent values: that of a + c - 2 b is -6 k, whatever their mean, its slope and
-    its bend, as that of the beams of a lens."""
+    """The third central moment k of independent values: that of a + c - 2 b is -6 k, whatever their mean and its slope."""
     rows, columns = min(8, (x.shape[1] - 1) // 2), x.shape[2] // 3
     down, across = x.shape[1] - 2 * rows, x.shape[2] - 2 * columns
     y = x[:, :down, :across] + x[:, 2 * rows:, 2 * columns:] - 2.0 * x[:, rows:rows + down, columns:columns + across]

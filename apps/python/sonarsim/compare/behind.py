@@ -12,8 +12,7 @@ NEIGHBOURS, STANDS_OUT_DB, DEEPEST_DB, MAX_PLACES = 9, 15.0, 40.0, 64
 
 
 def first_returns(images):
-    """The range at which the bottom begins in each column of a side-scan, [image, column]: where the level passes the
-    middle between its lowest and its usual level."""
+    """The range at which the bottom begins, [image, column]: where the level passes the middle of its lowest and usual."""
     first, found = images.shape[0] // RING_SHARE, []
     for image in images.powers:
         level = decibels(ndimage.uniform_filter(image.astype(float), (9, 5)))[first:]

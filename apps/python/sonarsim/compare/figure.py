@@ -46,8 +46,7 @@ class Figure:
 
 
 def without_gain(figure):
-    """A figure that no gain changes, with the gain of its own reference taken from its values, so that cells of two
-    recordings can be exchanged."""
+    """A figure less the gain of its own reference, so that cells of two recordings can be exchanged."""
     if figure.is_reference is not None:
         level = value_of(dataclasses.replace(figure, is_reference=None, weights=figure.weights * figure.is_reference))
         return dataclasses.replace(figure, values=figure.values / 10.0 ** (0.1 * level))
@@ -63,8 +62,7 @@ def value_of(figure):
 
 
 def joined(*parts):
-    """The values of the cells of all parts together in draws. A part is a figure, the units of its cells, and draws[d, u],
-    which multiply the weights of the cells of unit u."""
+    """The values of all parts together in draws. A part: a figure, its cells' units, and weights draws[d, u] of unit u."""
     first, _, draws = parts[0]
     if first.reduce in ("mean", "level"):
         def mean_of(kept):

@@ -15,8 +15,7 @@ RING_SHARE, SMOOTHED_SHARE, RANGES_OF_LEVEL = 28, 44, 8
 
 @dataclasses.dataclass
 class Images:
-    """Images of powers [image, range, column], one for each ping. Sonars with one or two beams have images of up to
-    64 pings: their columns are pings."""
+    """Images of powers [image, range, column], one for each ping; with one or two beams the columns are up to 64 pings."""
 
     powers: np.ndarray
     first_range_m: float
@@ -86,8 +85,7 @@ def patch_size_of(a, b):
 
 
 class Grid:
-    """Patches of an image, numbered a row after the other, which do not overlap. Ranges and columns that fill no patch
-    are left out."""
+    """Patches of an image, numbered a row after the other, which do not overlap. The rest of the image is left out."""
 
     def __init__(self, shape, size):
         self.size = size

@@ -25,8 +25,7 @@ DARK = 0.25     # 6 dB below; speckle alone makes such a run in fewer than one o
 
 
 def measure_images(images, size, zones, bands, sizes_m):
-    """The figures of images. `bands` are the intervals of range and of bearing (or None) that are compared, `sizes_m` those
-    of blocks."""
+    """The figures of images. `bands`: the intervals of range and of bearing (or None); `sizes_m`: those of blocks."""
     grid = Grid(images.shape, size)
     groups = {**level_figures(images, grid, zones, bands),
               "greys": share_figures(images, grid) + percentile_figures(images, grid)}
@@ -103,8 +102,7 @@ def bands_of(what, values, interval, count, unit):
 
 
 def banded_levels(images, grid, names, range_bands, column_bands):
-    """The levels of bands: of ranges if all columns have the band 0, else of columns. A cell is the part of a patch in
-    one band."""
+    """The levels of bands: of ranges if all columns have the band 0, else of columns. A cell: a patch's part in a band."""
     (height, width), rows, columns = grid.size, grid.rows, grid.columns
     down, right = (np.arange(1 + max(bands.max(), 0)) == bands[:n * step].reshape(n, step)[..., None] for bands, n, step in (
         (range_bands, rows, height), (column_bands, columns, width)))

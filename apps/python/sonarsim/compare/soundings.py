@@ -57,8 +57,7 @@ def band_figures(soundings, power, band):
 
 
 def spread_of(ranges, offset):
-    """The root mean square distance of ranges from their parabola over the angle, over the mean range. The sum of n squares
-    is divided by n - 3, since the fit has three parameters."""
+    """The RMS distance of n ranges from their parabola over the angle, by n - 3 degrees of freedom, over the mean range."""
     basis, sizes, _ = np.linalg.svd(np.vander(offset, 3), full_matrices=False)
     off = ranges - basis @ (basis.T @ ranges)
     return np.sqrt(np.sum(off ** 2) / (len(ranges) - 3)) / ranges.mean() if sizes[2] > 1e-6 else np.nan

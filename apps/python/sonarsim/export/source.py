@@ -181,8 +181,7 @@ def full_value_of(sensor):
 
 
 def pixel_m_of(picture, sensor, dataset):
-    """Width and height in metres of a pixel of a fan or a waterfall, the latter by the slant range and the median way
-    between pings."""
+    """Width and height in metres of a pixel of a fan, or of a waterfall by slant range and median way between pings."""
     if picture.kind == "fan":
         return (sensor.fan_shape(picture.width)[2],) * 2
     if sensor.kind != "sidescan":
@@ -227,8 +226,7 @@ def picture(sensor, path, facts, kind, shape, parts):
 
 
 def object_of(one, kind, number):
-    """What is known of an object: id, class (its number), mask (compressed runs), shadow (its box) and FACTS. None if
-    it is background or the picture does not show it."""
+    """An object's id, class (number), mask (compressed runs), shadow (box) and FACTS. None: background, or not shown."""
     shown = one["fan"] if kind == "fan" else one
     if not number or shown is None:
         return None

@@ -32,8 +32,7 @@ def read(data, max_pings, own):
 
 
 def pings_of(message):
-    """The (periods of a sample, samples) of a message in a list, which is empty if it has no samples; None if its sum is
-    wrong."""
+    """The (periods of a sample, samples) of a message in a list, empty if it has none; None if its sum is wrong."""
     if sum(message[:-2]) & 0xFFFF != field(message, "H", len(message) - 2):
         return None
     payload, samples_at = message[HEADER:-2], SAMPLES_AT[field(message, "H", 4)]

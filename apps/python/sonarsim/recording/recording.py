@@ -67,8 +67,7 @@ class Recording:
     range_step_m: float = 0.0
     frequency_hz: float = 0.0               # of the sound; 0: not known
     bearing_rad: np.ndarray | None = None   # of each beam of the kind imaging, positive to port
-    # float32 [ping, range, beam] as delivered, the law not undone; side-scan: 2 beams, port first;
-    # scanning and echosounder: 1 beam; soundings: None.
+    # float32 [ping, range, beam], the law not undone; side-scan: port first; echosounder: 1 beam; soundings: None.
     values: np.ndarray | None = None
     soundings: Soundings | None = None      # of the kind soundings alone
     notes: list = dataclasses.field(default_factory=list)   # what a reader left out
@@ -96,8 +95,7 @@ class Recording:
         return largest if largest < full and is_many else None
 
     def without_margins(self):
-        """The recording without the ranges and beams at its ends that have one value below the largest in all pings: no echo
-        is in them."""
+        """The recording without ranges and beams at its ends that have one value in all pings, below the largest."""
         if self.values is None or not len(self):
             return self
         same = (np.ptp(self.values, axis=0) == 0.0) & (len(self) > 1) & (self.values[0] < (self.law.largest_value or np.inf))
