@@ -4,7 +4,7 @@
 #   make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep \
 #        sensors.fls.range_max_m="10 20" seed="1 2"
 #
-# writes OUT/sensors.fls.range_max_m=10,seed=1/ and so on, and OUT/index.csv with the values of every
+# writes OUT/seed=1,sensors.fls.range_max_m=10/ and so on, and OUT/index.csv with the values of every
 # folder.
 # The parameters of the noise have short names; SENSOR names the sensors that they are for:
 #

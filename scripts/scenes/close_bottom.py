@@ -16,8 +16,7 @@ def step_at(y):
 
 
 def material_at(x, y, ragged, draw):
-    """A patch of pebbles on silt with a bare spot in it, mud before it, sand behind it, and rock
-    beyond the step. Single stones make the bottom's echo spiky."""
+    """Mud, a patch of pebbles on silt with a bare spot, sand, and rock beyond the step. Stones make echoes spiky."""
     azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
     distance = math.hypot(x, y)
     bend = (azimuth / 30) ** 2

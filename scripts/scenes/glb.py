@@ -54,8 +54,7 @@ def write_glb(path, parts):
         count = len(axes[0])
         positions = accessor(part.vertices, "VEC3", count, min=[*map(min, axes)], max=[*map(max, axes)])
         code = "H" if count < 65536 else "I"
-        meshes.append({"name": part.name, "primitives": [
-            {"attributes": {"POSITION": positions},
+        meshes.append({"name": part.name, "primitives": [{"attributes": {"POSITION": positions},
              "indices": accessor(array.array(code, numbers), "SCALAR", len(numbers)),
              "material": names.index(material)} for material, numbers in part.indices.items()]})
     document = {

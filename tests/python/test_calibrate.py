@@ -176,11 +176,15 @@ class Fits(unittest.TestCase):
     def test_numbers_with_wide_intervals_are_kept_from_the_start(self):
         start = {"receiver": {"gamma": 0.5}, "beam": {"width_deg": 1.0}, "pulse": {}}
         fit = image.Fit({section: dict(keys) for section, keys in start.items()}, 0.0, start=start)
+        fit.level_db = -9.0
         fit.set("receiver.gamma", Bounded(1.32, 0.40, 2.25))
         fit.set("beam.width_deg", Bounded(0.9, 0.8, 1.0))
         fit.set("receiver.full_scale_db", Bounded(-2.0, -8.0, 4.0))
-        image.drop_wide(fit)
-        self.assertEqual(sorted(fit.estimates), ["beam.width_deg", "receiver.full_scale_db"])
+        image.drop_wide(fit, 0.0)
+        self.assertEqual((sorted(fit.estimates), fit.level_db), (["beam.width_deg", "receiver.full_scale_db"], -9.0))
+        fit.set("receiver.tvg_log", Bounded(4.0, 0.0, 8.0))
+        image.drop_wide(fit, 0.0)
+        self.assertEqual((sorted(fit.estimates), fit.level_db), (["beam.width_deg"], 0.0))
         self.assertEqual(fit.instrument["receiver"]["gamma"], 0.5)
         self.assertIn("gamma", fit.lacks[0])
 

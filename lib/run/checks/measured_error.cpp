@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "simulate/assembly/poses.h"
 #include "simulate/sonar/sonar.h"
+#include "simulate/visibility/strips/strips.h"
 
 namespace sonarsim {
 
@@ -84,7 +85,9 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const std::vector<Pose> bodies = body_poses(assembly, at.t_s);
     const Caster placed = bodies.empty() ? caster : caster.moved(bodies);
     const double goal = mission.accuracy.relative_l1;
-    const Reference truth = affordable_reference(placed, scene, *sonar, T_world_sensor, goal);
+    Reference truth = affordable_reference(placed, scene, *sonar, T_world_sensor, goal);
+    if (goal < min_refined_goal && truth.noise > measurable * goal)
+        truth = affordable_reference(placed, scene, *sonar, T_world_sensor, min_refined_goal);
     const std::shared_ptr<const VisibilityEngine> then =
         engine_at(engine, assembly.motions, at.t_s);
     const Ping ping = direct_image(*sonar, scene, *then, T_world_sensor);
@@ -114,8 +117,10 @@ std::string cure_of(const Mission& mission, double worst) {
     constexpr const char* another = "use the engine with the least error in `sonarsim report`";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
-    if (goal <= AccuracyConfig::min_relative_l1) return another;
-    const double lower = std::max(goal * goal / worst, AccuracyConfig::min_relative_l1);
+    const double finest =
+        mission.engine == EngineKind::rays ? AccuracyConfig::min_relative_l1 : finest_goal;
+    if (goal <= finest) return another;
+    const double lower = std::max(goal * goal / worst, finest);
     return "lower accuracy.relative_l1 to " + short_text(lower) +
            (mission.engine == EngineKind::automatic ? "" : std::string(", or ") + another);
 }

@@ -78,10 +78,13 @@ def check_usable(recording, kind):
         raise CalibrationError("soundings determine no key of a preset; sonarsim compare shows how they differ")
     if len(recording) < 2:
         raise CalibrationError(f"{len(recording)} ping: a part is fitted and the other judged, so it takes two or more")
-    if recording.values.shape[1] < 24:
-        raise CalibrationError("fewer than 24 ranges: record longer pings")
+    check_values(recording.values, full_value_of(recording) * (1.0 - recording.law.offset))
+
+
+def check_values(values, largest):
     # Values are rounded to whole numbers, unless all lie below 15.
-    values, largest = recording.values, full_value_of(recording) * (1.0 - recording.law.offset)
+    if values.shape[1] < 24:
+        raise CalibrationError("fewer than 24 ranges: record longer pings")
     full = (values >= (largest - 0.5 if largest > 15.0 else largest)).mean()
     if values.min() == values.max():
         raise CalibrationError("every value is the same: it is empty")
@@ -173,8 +176,7 @@ def all_figures(shaped, fits):
 
 
 def fit_by_figures(shaped, fits, fit):
-    """The figures of a fit. Gain and noise are those of the start if more figures of the judged pings agree with these.
-    CalibrationError if more still agree with the start than with the fit."""
+    """The figures of a fit, with the start's gain and noise if more agree with these; CalibrationError if too few do."""
     while True:
         rows = all_figures(shaped, fits)
         lost = sum(row[0].agrees for row in rows) - sum(row[2].agrees for row in rows)
@@ -236,6 +238,10 @@ def calibrate_fans(options):
     windows, starts, full_scale_db = [], [], {}
     for folder, range_m in zip(options.recordings, zip(options.range_m[::2], options.range_m[1::2])):
         fans = read_fans(pathlib.Path(folder), options.azimuth_deg, range_m)
+        try:
+            check_values(fans.polar(fans.pixels), 255.0)
+        except CalibrationError as fault:
+            raise CalibrationError(f"{folder}: {fault}") from fault
         # The judged ones lie evenly between the others: the scene changes on the way.
         order = np.argsort(np.modf(np.arange(len(fans)) * options.judge + options.judge)[0] < options.judge, kind="stable")
         parts = [fans.pixels[np.sort(order[of])] for of in split(len(fans), options.judge, options.reverse)]
@@ -257,6 +263,11 @@ def calibrate_fans(options):
     fit.notes.append(SCENE_DECIDES if options.mission else "gain and noise are those that give sand with rocks the greys of "
                      f"the fans; name a mission with a scene like theirs by --mission. {SCENE_DECIDES}")
     pings, name = [sum(len(parts[k]) for parts, *_ in windows) for k in (0, 1)], windows[0][1].name
+    agree, off = (np.array([[score(row[k]) for k in (0, 2)] for row in figures]).sum(axis=0) for score in (
+        lambda figure: figure.agrees, lambda figure: abs(figure.predicted - figure.measured.value)))
+    if agree[1] < agree[0] and off[1] > off[0]:
+        raise CalibrationError(f"{name}: {agree[0] - agree[1]} figures of the judged fans fewer agree with the fit than with "
+                               "the start, so it is not written: name a mission with their scene by --mission")
     result = result_of(name, pings, figures, fit.notes, fit.estimates)
     start = starts[0]
     return result, text_of(start, new_keys(start, fit), f"{pings[0]} fans of {name}, from {options.preset}", vary_block(fit))

@@ -134,9 +134,8 @@ def predicted_correlations(beam, sines, statistics):
 
 
 def fit_array(measured, covariance, units, sines, statistics):
-    """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths. An
-    interval covers all arrays whose chi^2 is within 3.84 of the least (profile likelihood; Wilks 1938). None for
-    fewer than 24 units."""
+    """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths; intervals cover
+    chi^2 within 3.84 of the least (profile likelihood; Wilks 1938). None for fewer than 24 units."""
     if units < MIN_UNITS:
         return None
     # The inverse of a covariance from n units is (n - 1) / (n - p - 2) too large (Hartlap 2007).

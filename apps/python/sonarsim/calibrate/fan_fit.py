@@ -1,6 +1,5 @@
-"""Fits a preset to fans as a display shows them: grey PNG files of 8 bits, boresight up, black outside of the sector. They
-are smoothed, resampled and clipped, so no closed form holds: the echoes of a scene get noise, gain, grey law and the pixels of
-the fans, with numbers that give both the same greys and the same grain."""
+"""Fits a preset to fans as a display shows them: grey PNG files of 8 bits, boresight up, black outside of the sector. No
+closed form holds for them: the echoes of a scene get noise, gain, grey law and pixels until both have one grey and grain."""
 import copy
 
 import numpy as np
@@ -11,14 +10,13 @@ from ..data import Sensor, middles
 from .correlations import beam_correlation, predicted_correlations, taper
 from .image import Fit
 from .judge import Figure
-from .levels import Records
+from .levels import Records, is_wide
 from .patches import Patches
 from .statistics import Bounded, CalibrationError, LogStatistics, bootstrap
 
 RINGS, FULL = 8, 255.0
 QUANTILES = 0.1, 0.5, 0.9
-# Of the grey in all ranges; in rings, where the scene is theirs and where it is not; of the logarithm of the grain; of
-# its skewness. Chosen.
+# Of the grey in all ranges; in rings of the own and of a usual scene; of the grain's logarithm; of its skewness. Chosen.
 GREY_ERROR, RING_ERROR, RING_ERROR_USUAL, GRAIN_ERROR, SKEWNESS_ERROR = 6.0, 6.0, 45.0, 0.04, 0.05
 # How far from the start a number is looked for: a standard deviation, and limits.
 NUMBERS = {"gamma": (0.25, 0.1, 2.0), "dynamic_range_db": (20.0, 10.0, 200.0), "full_scale_db": (20.0, -300.0, 300.0),
@@ -219,15 +217,19 @@ def fit_fans(windows, start, full_scale_db, ring_error):
     _, law, numbers, errors = min((fit_numbers(displays[0], law, measured, first, ring_error)
                                    for law, first in begin.items()), key=lambda found: found[0])
     fit.set("receiver.companding", law)
-    for name, value, error in zip((LAWS[law], "full_scale_db", "noise_db", "tvg_log"), numbers, errors):
-        if error > 0.9 * NUMBERS[name][0]:
-            fit.notes.append(f"{name}: the fans hardly show it; that of the start is kept")
-        else:
-            fit.set(f"receiver.{name}", Bounded(value, value - 1.96 * error, value + 1.96 * error))
+    for k, name in reversed([*enumerate((LAWS[law], "full_scale_db", "noise_db", "tvg_log"))]):
+        number = Bounded(numbers[k], numbers[k] - 1.96 * errors[k], numbers[k] + 1.96 * errors[k])
+        if errors[k] <= 0.9 * NUMBERS[name][0] and not is_wide(name, number):
+            fit.set(f"receiver.{name}", number)
+            continue
+        fit.notes.append(f"{name}: the fans hardly show it; that of the start is kept")
+        numbers[k] = begin[law][k]
+        if name == "tvg_log":   # the level in the middle stays
+            numbers[1] += (numbers[k] - number.value) * np.log10(np.mean(windows[0][1].range_edges_m))
     (parts, _, echoes), *_ = windows
     width = beam_width(start, echoes.sensor, parts[0], displays[0][0].pixels(law, numbers))
-    if width is None:
-        fit.notes.append("beam.width_deg: too few even patches; that of the start is kept")
+    if width is None or is_wide("width_deg", width):
+        fit.notes.append("beam.width_deg: the fans hardly show it; that of the start is kept")
     else:
         fit.set("beam.width_deg", width)
     if numbers[-1] > 0.6:

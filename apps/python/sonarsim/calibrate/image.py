@@ -51,14 +51,14 @@ def fit_image(recording, start):
     fit.set("receiver.companding", "log" if fit.law.is_log else "gamma")
     fit.set(key, fit.law.scale)
     set_levels(start, fit)
-    drop_wide(fit)
+    drop_wide(fit, start.noise_db - start.full_scale_db)
     if key not in fit.estimates:
         state_law(fit, recording.law, "the pings hardly show the law")
     return fit
 
 
-def drop_wide(fit):
-    """Takes the numbers out of a fit whose interval is wider than 30 %."""
+def drop_wide(fit, level_at_start):
+    """Takes the numbers out of a fit whose interval is wider than 30 %. `level_at_start`: of the noise."""
     for key, number in [*fit.estimates.items()]:
         if isinstance(number, Bounded) and key not in DECIBELS and number.high - number.low > WIDEST * abs(number.value):
             section, name = key.split(".")
@@ -67,6 +67,8 @@ def drop_wide(fit):
             fit.lacks.append(f"what shows {name} within 30 %")
             fit.notes.append(f"{key}: the interval {number.low:.4g} to {number.high:.4g} is wider than 30 %; that of the "
                              "start is kept")
+            if name == "tvg_log" and fit.estimates.pop("receiver.full_scale_db", None):     # it holds for that growth alone
+                fit.level_db = level_at_start
 
 
 def joined(fits):
@@ -99,8 +101,7 @@ def state_law(fit, law, why):
 
 
 def fit_laws(recording, fit, absorption):
-    """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, if there are
-    enough, since even patches of echoes may hold a texture of the bottom."""
+    """Fits the law to all patches, finds the noise, and fits it again to patches of noise if enough: echoes have texture."""
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
     statistics, offset = receiver_statistics(receiver), receiver["offset"]
 

@@ -43,8 +43,7 @@ def classified(recording, law, noise):
         is_noise = np.all([np.isin(patches.row + k, rows) for k in range(0, patches.shape[0], ROWS)], axis=0)
     chosen, echoes = np.flatnonzero(is_noise), patches.even()
     if len(chosen):
-        # Particles are bright points in some. The variance of four means of one level exceeds four times its median
-        # in 2.4 % of the patches.
+        # Some have bright particles. Of one level the variance of four means exceeds four times its median in 2.4 %.
         chosen = chosen[patches.unevenness[chosen] <= 4.0 * np.median(patches.unevenness[chosen])]
     if noise:
         echoes = echoes[DB_OF_E * (patches.mean[echoes] - law.statistics.mean) > MIN_ECHO_DB]

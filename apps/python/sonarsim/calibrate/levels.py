@@ -94,8 +94,8 @@ def numbers_of(pairs, measured, first, law, scale, known):
 
 def is_wide(name, number):
     """True for a number that the levels do not show. The key tvg_log has limits."""
-    most = WIDEST_DB if name != "tvg_log" else WIDEST * number.value if 0.0 <= number.value <= 60.0 else 0.0
-    return number.high - number.low > most
+    most = WIDEST_DB if name in ("full_scale_db", "noise_db") else WIDEST * number.value
+    return number.high - number.low > most or name == "tvg_log" and not 0.0 <= number.value <= 60.0
 
 
 def fit_levels(windows, start, fit, mission=None, settings=()):

@@ -23,8 +23,8 @@ MATERIALS = ("material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,1
 
 
 def usual_mission(kind, range_m, view=None, bottom="sand"):
-    """A level bottom. `view`: the height in metres and the pitch in rad. Without one, sonars see it with rocks from heights
-    of 0.15 to 0.4 of the range, and the boresight meets it at three quarters."""
+    """A level bottom seen from `view`, the height in metres and the pitch in rad; without one it has rocks, and sonars are
+    0.15 to 0.4 of the range above it with the boresight at three quarters."""
     range_m = float(range_m)
     views = [(view[0] / range_m, view[1])] * 2 if view else [(share, np.arcsin(share / 0.75))
                                                              for share in (0.15, 0.23, 0.32, 0.4)]
@@ -93,8 +93,7 @@ def with_shape(start, text, more=()):
 
 
 class Echoes:
-    """Amplitudes of echoes before the gain, [ping, range, beam], in the unit of source_level_db; of other sonars than
-    imaging ones [image, range, ping]."""
+    """Amplitudes of echoes before the gain, in the unit of source_level_db: [ping, range, beam] or [image, range, ping]."""
 
     def __init__(self, start, mission, name, paths_from, settings=()):
         text = with_shape(start, start.text, {"instrument.receiver.noise_db": NO_NOISE_DB,

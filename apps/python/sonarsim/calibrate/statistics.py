@@ -55,8 +55,7 @@ def bootstrap(count, estimate, least=0.0, draws=80):
 class LogStatistics:
     """ln P of the delivered power P of speckle of the mean 1: the rank of one sample, whose power x is exponential,
     becomes that rank of the largest (or mean) power of n independent samples, whose logarithm is then multiplied by the
-    expansion. A law P^(g / 2) or a + b ln P scales and shifts ln P, so its skewness and its correlations do not depend on
-    the law."""
+    expansion. A law P^(g / 2) or a + b ln P scales and shifts ln P, which changes no skewness and no correlation."""
     def __init__(self, samples=1.0, combine="max", expansion=1.0):
         self.is_single = samples == 1.0 and expansion == 1.0
         step = 0.005

@@ -55,8 +55,7 @@ def compare_recordings(real, simulated, seed=1):
         raise RecordingError(f"{real.name} and {simulated.name} have no figure in common: too few ranges, beams or pings")
     adjust(figures)
     if same_places:
-        # A figure must also differ by exchange, since a few bright places cause other tails than Student's. A figure
-        # without variance has no such tails.
+        # A figure must also differ by exchange, as a few bright places cause other tails than Student's.
         for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
             figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
     return Comparison(real, simulated, same_places, is_relative, figures)

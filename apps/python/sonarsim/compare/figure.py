@@ -91,8 +91,7 @@ def joined(*parts):
 
 
 def quantile_of(values, weights, share):
-    """The mid-distribution quantile (Parzen 2004) of sorted values for each column of weights, interpolated between
-    values, so that it moves smoothly where a value occurs often."""
+    """The mid-distribution quantile (Parzen 2004) of sorted values for each column of weights, smooth where values repeat."""
     ends = np.cumsum(weights, axis=0)
     middles, wanted, columns = ends - 0.5 * weights, share * ends[-1], np.arange(weights.shape[1])
     high = np.minimum((middles < wanted).sum(axis=0), len(values) - 1)

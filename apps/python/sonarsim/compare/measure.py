@@ -71,8 +71,7 @@ def zone_figures(images, grid, name, zone):
 
 
 def level_figures(images, grid, zones, bands):
-    """Groups of levels: that of the bottom, which the gain decides; over it those of zones, of bands of range, and of bands
-    of bearing in the bottom; and that of the ring."""
+    """Groups of levels: the bottom's, which the gain decides; over it zones, bands of range and of bearing; the ring's."""
     ranges, everywhere = np.arange(images.shape[0]), np.zeros(images.shape[1], int)
     zone = np.where(ranges < zones.water[0], 3, -1)
     for number, (begin, end) in ((2, zones.tail), (1, zones.water), (0, zones.bottom)):

@@ -31,8 +31,7 @@ def comparison_text(c):
 
 def comparison_json(c):
     first = c.first_change
-    return {
-        "format": "sonarsim comparison", "format_version": 3, "real": {"name": c.real.name, "pings": len(c.real)},
+    return {"format": "sonarsim comparison", "format_version": 3, "real": {"name": c.real.name, "pings": len(c.real)},
         "simulated": {"name": c.simulated.name, "pings": len(c.simulated)}, "one_grid": c.has_one_grid,
         "relative_levels": c.is_relative, "figures_agreeing": c.agreeing, "figures_differing": c.differing,
         "agreement": c.agreeing / len(c.figures), "same": c.is_same,

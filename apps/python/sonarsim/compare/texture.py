@@ -17,8 +17,7 @@ def block_sizes(a, b):
 
 
 def block_figures(images, grid, zone, sizes_m):
-    """The spread of the mean levels of blocks of the bottom without their trend over range. Blocks are square in metres,
-    those of a side-scan in samples, since its pings have no distance."""
+    """The spread of mean levels of square blocks of the bottom less their trend over range; in samples of a side-scan."""
     if images.kind not in ("imaging", "sidescan"):
         return []
     powers, count = images.powers.astype(float), images.shape[0]

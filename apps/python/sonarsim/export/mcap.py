@@ -1,5 +1,4 @@
-"""Files of the format MCAP (https://mcap.dev/spec), in chunks that are not compressed, with an index. Messages of ROS 2 are
-XCDR1 bytes by their definitions (ros2msg)."""
+"""Files of MCAP (https://mcap.dev/spec) in indexed chunks, not compressed. Messages of ROS 2 are XCDR1 bytes (ros2msg)."""
 import collections
 import pathlib
 import re

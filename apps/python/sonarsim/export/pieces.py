@@ -210,8 +210,7 @@ def show(one, picture, frame, options):
 
 
 def pixels_of(picture, is_whole, options):
-    """The grey values, or colours, of a picture in 8 bits, None if nothing needs them, and whether its file can be
-    copied. White is full_scale, and grey its square root; raw/ stays linear."""
+    """A picture's greys (the square root, raw/: linear) or colours in 8 bits, None if not needed; may its file be copied."""
     is_copy, is_raw = False, picture.path.parent.name == "raw"
     try:
         if picture.path.suffix == ".npy":

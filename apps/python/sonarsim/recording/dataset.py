@@ -78,8 +78,7 @@ def read_records(folder, sensor, kind, pings, first):
 
 
 def soundings_of(folder, sensor, recording):
-    """The bottom that a profiling sonar detected. Intensities are mean powers over the footprint of a beam, as
-    echosounders deliver them: on a level bottom, r width tan(angle) of range."""
+    """The bottom that a profiling sonar detected, with mean powers over footprints of beams: r width tan(angle) of range."""
     records = sensor.records("soundings")       # range, x, y, z, quality, labels
     pings, ranges, beams = recording.values.shape
     require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] >= 5)

@@ -12,7 +12,6 @@ namespace sonarsim {
 namespace {
 
 constexpr double usual_goal = 0.03;
-constexpr double finest_goal = 0.003;
 
 // Thin things need more columns, in proportion, up to this many times as many.
 constexpr float by_thinness = 1.3F;
