@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "input/trajectory/files.h"
 #include "input/trajectory/trajectory.h"
 #include "target.h"
 

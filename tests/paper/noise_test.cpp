@@ -1,8 +1,6 @@
 #include "simulate/paper/noise.h"
 
 #include "simulate/paper/echoes.h"
-#include "simulate/sonar/sonar.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/draws.h"
 #include "support/patches.h"
 #include "support/sonars.h"

@@ -1,7 +1,6 @@
 #include "support/shapes.h"
 
 #include "core/elementary.h"
-#include "simulate/visibility/view.h"
 #include "support/test.h"
 
 namespace sonarsim::test {

@@ -1,5 +1,4 @@
-#include "input/trajectory/files.h"
-
+#include "input/trajectory/trajectory.h"
 #include "support/test.h"
 
 namespace {

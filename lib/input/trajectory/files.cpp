@@ -1,5 +1,3 @@
-#include "input/trajectory/files.h"
-
 #include <cmath>
 #include <iterator>
 
@@ -11,6 +9,7 @@
 #include "core/units.h"
 #include "input/mission/document.h"
 #include "input/mission/limits.h"
+#include "input/trajectory/trajectory.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "input/scene/maps/ground_maps.h"
-#include "input/trajectory/files.h"
+#include "input/trajectory/trajectory.h"
 #include "output/dataset/labelled_ping.h"
 #include "output/format/png.h"
 #include "simulate/sonar/kinds.h"

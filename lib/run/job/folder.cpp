@@ -7,7 +7,7 @@
 #include "core/file.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
-#include "input/trajectory/files.h"
+#include "input/trajectory/trajectory.h"
 #include "output/dataset/metadata.h"
 #include "output/dataset/seabed_files.h"
 #include "run/job/shard_lock.h"

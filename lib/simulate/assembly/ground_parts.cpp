@@ -1,5 +1,3 @@
-#include "simulate/assembly/ground_parts.h"
-
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "core/error.h"
 #include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"
+#include "simulate/assembly/scene_parts.h"
 #include "simulate/assembly/sound_profiles.h"
 #include "simulate/water/sound_profile.h"
 

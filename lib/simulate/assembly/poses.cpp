@@ -10,8 +10,8 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/mission/ping_draws.h"
-#include "input/trajectory/files.h"
 #include "input/trajectory/patterns.h"
+#include "input/trajectory/trajectory.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/water/water_ray.h"
 

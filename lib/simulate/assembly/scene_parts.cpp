@@ -12,7 +12,6 @@
 #include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
 #include "input/scene/placing/standing.h"
-#include "simulate/assembly/ground_parts.h"
 #include "simulate/assembly/placed_files.h"
 #include "simulate/assembly/poses.h"
 
