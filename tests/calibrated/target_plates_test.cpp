@@ -105,3 +105,28 @@ TEST_CASE("targets: with maps they are in every ping, with the power of their te
         CHECK(greatest_error_db(plate, 9, 0.05) < 0.7);
     }
 }
+
+// Long triangles reach out of both sides of a thin view: their middles may lie outside of it.
+TEST_CASE("targets: a rod across a thin view has one level, however it is cut") {
+    SonarConfig config = target_sonar(SonarKind::sidescan).config;
+    config.elevation_deg = 0.25;
+    const Sonar sonar = make_sonar(config, {});
+    const auto level = [&](int pieces, double x) {
+        Scene scene = metal_scene();
+        scene.instances.emplace_back("rod");
+        const auto at = [&](int k) -> Eigen::Vector3f {
+            return Eigen::Vector3d(1.2 * k / pieces - 0.6, 17.3, -10.0).cast<float>();
+        };
+        for (int k = 0; k < pieces; ++k)
+            add_bar(scene, at(k), at(k + 1), 0.025F, 24, false, 0);
+        const auto engine = engine_of(scene, EngineKind::automatic);
+        return db_of_power(energy_by(sonar, scene, *engine, {.translation = {x, 0, 0}}));
+    };
+    const double expected = level(400, 0.0);
+    for (const int pieces : {1, 4, 20}) {
+        for (const double x : {0.0, 0.011, 0.05, 0.11}) {
+            CAPTURE_ALL(pieces, x);
+            CHECK(std::fabs(level(pieces, x) - expected) < 0.3);
+        }
+    }
+}

@@ -174,7 +174,8 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
     std::vector<SightLine> lines;
     for (const SightLine& line : whole) {
         const auto keep = [&](const SightLine& part) { return tracer.is_before_object(part); };
-        if (tracer.is_before_edge(line)) divide(line, parts_of_share(line), width, keep, lines);
+        if (tracer.is_before_edge(line))
+            divide(line, parts_of_share(line, view), width, keep, lines);
     }
     pass(lines, [&](std::size_t k, std::span<const Intersection> surfaces) {
         tracer.count_hidden(lines[k], surfaces);

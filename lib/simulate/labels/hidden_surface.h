@@ -90,7 +90,7 @@ LineParts parts_of(const SightLine& line, const Intersection* met, const LineWid
 
 /// The parts for a line that may have some of an object behind it, for the object's share. Their
 /// lines are scattered: those of a grid may all miss a thin object.
-LineParts parts_of_share(const SightLine& line);
+LineParts parts_of_share(const SightLine& line, const View& view);
 
 /// Appends the parts of a line that has not left its sample.
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,
