@@ -1,7 +1,6 @@
 #include "simulate/assembly/particles.h"
 
 #include "core/decibel.h"
-#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/particles.h"
 #include "support/statistics.h"

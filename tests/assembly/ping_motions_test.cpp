@@ -1,7 +1,5 @@
 #include "simulate/assembly/poses.h"
 #include "simulate/assembly/scene_parts.h"
-#include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping_motion.h"
 #include "support/test.h"
 

@@ -1,6 +1,4 @@
 #include "core/lanes.h"
-#include "core/random.h"
-#include "simulate/calibrated/signal/echo_grid.h"
 #include "simulate/calibrated/signal/normals.h"
 #include "simulate/calibrated/speckle/speckle.h"
 #include "support/test.h"

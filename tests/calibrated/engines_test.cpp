@@ -165,7 +165,6 @@ TEST_CASE("the energy of thin structures is right") {
     constexpr int scenes = 6;
     for (const std::uint32_t number : {100U, 102U, 104U, 106U, 108U, 114U}) {
         const Lattice lattice = draw_lattice(number);
-        CAPTURE(lattice.shape);
         Sonar sonar = make_sonar(bare_sonar(lattice.sonar, 4e5), {goal});
         sonar.T_vehicle_sensor = Pose{};
         const double error =

@@ -1,8 +1,6 @@
 #include "simulate/calibrated/equation/sediment.h"
 
 #include "core/decibel.h"
-#include "simulate/calibrated/equation/bottom.h"
-#include "simulate/calibrated/equation/seafloor_scattering.h"
 #include "support/calibrated.h"
 
 namespace {

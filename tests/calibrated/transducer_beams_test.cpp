@@ -1,6 +1,5 @@
 #include "core/decibel.h"
 #include "simulate/calibrated/signal/directivity.h"
-#include "simulate/calibrated/signal/line_array.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/test.h"
 

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/water_column.h"
 
 #include "calibrated/water_fixtures.h"
-#include "input/mission/mission.h"
 #include "simulate/calibrated/equation/water.h"
 #include "support/statistics.h"
 

@@ -1,5 +1,4 @@
 #include "run/checks/find_warnings.h"
-#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/small_mission.h"
 

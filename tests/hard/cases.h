@@ -1,6 +1,5 @@
 #pragma once
 
-#include "input/mission/mission.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
 #include "support/test.h"

@@ -3,7 +3,6 @@
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/product/soundings.h"
-#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "support/images.h"
 #include "support/npy_data.h"

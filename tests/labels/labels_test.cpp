@@ -63,27 +63,23 @@ TEST_CASE("labels: the visible share of a narrow wall behind ground that hides i
     }
 }
 
-TEST_CASE(
-    "labels: the visible share of thin bars, of which a panel hides what lies below a place") {
+TEST_CASE("labels: the visible share of thin bars behind a panel") {
     // Along y or z at x = 6 m; the panel is at 3 m. The solid angle of a bar from a to b is as
     // b / sqrt(36 + b^2) - a / sqrt(36 + a^2).
     const auto part = [](float a, float b) { return b / std::hypot(6, b) - a / std::hypot(6, a); };
-    const LabelRequest request{.annotations = true, .annotated = {&anywhere, 1}};
-    for (const float half_m : {0.005F, 0.01F, 0.02F}) {
-        for (const float hidden_to : {-1.0F, 0.2F, 1.2F}) {
-            Scene scene = rectangle_scene({6, -2, -half_m}, {6, 2, half_m}, 0.5F);
-            add_rectangle(scene, {3, -2, -1}, {3, 0.5F * hidden_to, 1}, 0);
-            const Labelled along_y =
-                label(scene, noise_free(small_imaging()), {}, EngineKind::automatic, request);
-            CHECK(std::fabs(along_y.labels.visible_share[0] - part(hidden_to, 2) / part(-2, 2)) <
-                  0.05);
-            const float top = 0.25F * hidden_to;
-            scene = rectangle_scene({6, -half_m, -0.5F}, {6, half_m, 0.5F}, 0.5F);
-            add_rectangle(scene, {3, -1, -2}, {3, 1, 0.5F * top}, 0);
-            const Labelled along_z =
-                label(scene, noise_free(small_imaging()), {}, EngineKind::automatic, request);
-            CHECK(std::fabs(along_z.labels.visible_share[0] - part(top, 0.5F) / part(-0.5F, 0.5F)) <
-                  0.15);
+    const auto off = [&](Scene scene, const Eigen::Vector3f& panel, float hidden_to, float end) {
+        add_rectangle(scene, {3, -2, -2}, panel, 0);
+        const Labelled out = label(scene, noise_free(small_imaging()), {}, EngineKind::automatic,
+                                   {.annotations = true, .annotated = {&anywhere, 1}});
+        return out.labels.visible_share[0] - part(hidden_to, end) / part(-end, end);
+    };
+    for (const float half : {0.005F, 0.01F, 0.02F}) {
+        for (const float hidden : {-1.0F, 0.2F, 1.2F}) {
+            const Scene along_y = rectangle_scene({6, -2, -half}, {6, 2, half}, 0.5F);
+            CHECK(std::fabs(off(along_y, {3, 0.5F * hidden, 1}, hidden, 2)) < 0.05);
+            const float top = 0.25F * hidden;
+            const Scene along_z = rectangle_scene({6, -half, -0.5F}, {6, half, 0.5F}, 0.5F);
+            CHECK(std::fabs(off(along_z, {3, 1, 0.5F * top}, top, 0.5F)) < 0.15);
         }
     }
 }

@@ -2,7 +2,6 @@
 
 #include <set>
 
-#include "simulate/labels/hidden_surface.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"

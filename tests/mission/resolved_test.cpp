@@ -3,7 +3,6 @@
 #include <limits>
 #include <regex>
 
-#include "core/text.h"
 #include "input/mission/value_types.h"
 #include "mission/fixtures.h"
 

@@ -1,6 +1,5 @@
 #include "simulate/paper/noise.h"
 
-#include "simulate/paper/echoes.h"
 #include "support/draws.h"
 #include "support/patches.h"
 #include "support/sonars.h"

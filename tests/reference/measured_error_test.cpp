@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include "simulate/reference/reference.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 #include "support/small_mission.h"

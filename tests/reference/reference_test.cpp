@@ -1,6 +1,5 @@
 #include "simulate/reference/reference.h"
 
-#include "simulate/reference/reference_cast.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 

@@ -1,8 +1,6 @@
 #include <ctime>
 
 #include "core/random.h"
-#include "input/scene/placing/bottom.h"
-#include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
 #include "support/test.h"
 

@@ -175,11 +175,7 @@ void ladder(LatticeBuilder& lattice, Draws& draws) {
     }
 }
 
-/// Shapes by name.
-using Build = void (*)(LatticeBuilder&, Draws&);
-constexpr std::pair<const char*, Build> known_shapes[] = {
-    {"truss", truss},   {"net", net},     {"stairs", stairs}, {"pipes", pipes},
-    {"leaves", leaves}, {"wheel", wheel}, {"ladder", ladder}};
+constexpr std::array shapes{truss, net, stairs, pipes, leaves, wheel, ladder};
 
 /// A sonar for things of size `size_m` at `distance_m`.
 SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float distance_m) {
@@ -213,9 +209,7 @@ Lattice draw_lattice(std::uint32_t number) {
     Draws draws(number);
     Lattice out;
     out.scene = empty_scene();
-    const auto& [name, build] =
-        known_shapes[draws.whole(0, static_cast<int>(std::ssize(known_shapes)) - 1)];
-    out.shape = name;
+    const auto build = shapes[draws.whole(0, static_cast<int>(std::ssize(shapes)) - 1)];
     LatticeBuilder builder(draws, out.scene);
     build(builder, draws);
     const float size = draws.scale(0.5F, 4.0F);  // half of its length, m

@@ -9,7 +9,6 @@ namespace sonarsim::test {
 
 /// A drawn scene with a sonar. The sonar's frame is the world frame.
 struct Lattice {
-    std::string shape;  ///< "truss", "net", ...
     Scene scene;
     SonarConfig sonar;
 };

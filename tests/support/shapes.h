@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "input/scene/scene.h"
 
 namespace sonarsim::test {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "input/mission/mission.h"
 #include "run/job/run_job.h"
-#include "simulate/assembly/assemble.h"
 #include "support/test.h"
 
 namespace sonarsim::test {

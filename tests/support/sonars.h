@@ -1,7 +1,6 @@
 #pragma once
 
 #include "simulate/paper/paper_model.h"
-#include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/test.h"

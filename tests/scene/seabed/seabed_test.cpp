@@ -1,7 +1,6 @@
 #include "input/scene/seabed/seabed.h"
 
 #include "input/scene/gltf/load.h"
-#include "input/scene/seabed/relief.h"
 #include "support/seabed.h"
 #include "support/test.h"
 
