@@ -8,8 +8,7 @@ import yaml
 
 from .recording import KINDS, LAWS, Law, RecordingError
 
-FILE_NAME = "recording.yaml"
-LARGEST_FILE = 1 << 24
+FILE_NAME, LARGEST_FILE = "recording.yaml", 1 << 24
 # The keys that name the files of the pings, and the kinds that each can have.
 SOURCES = {"files": KINDS[:4], "xtf": ("sidescan",), "oculus": ("imaging",),
            "logs": ("imaging", "scanning", "echosounder"), "soundings": ("soundings",)}
@@ -19,7 +18,7 @@ NUMBERS = {     # key: least, greatest, default
     "bearing_first_deg": (*ANGLE, 0.0), "bearing_last_deg": (*ANGLE, 0.0), "frequency_hz": (1e3, 1e8)}
 # Keys that describe a recording to its readers. No figure needs them.
 NOTES = ("rate_hz", "times_s", "head_first_deg", "head_step_deg", "altitude_m", "pitch_deg")
-LAW_NUMBERS = {"exponent": (0.1, 2.0, 0.5), "range_db": (0.0, 300.0, 0.0), "full_value": (0.0, 1e30, 255.0),
+LAW_NUMBERS = {"exponent": (0.1, 2.0, 0.5), "range_db": (0.0, 300.0, 0.0), "full_value": (1e-30, 1e30, 255.0),
                "offset": (0.0, 0.9, 0.0)}
 SOUNDING_FILES = ("range_m", "angle_rad", "intensity")
 NEEDED = {"files": ("sound_speed_m_s", "first_range_m", "range_step_m"), "soundings": ("sound_speed_m_s",)}
@@ -105,13 +104,15 @@ def read_description(path):
         law = Section(path, section.keys["law"], ["kind", *LAW_NUMBERS])
         own.full_value_is_auto = law.keys.get("full_value") in (None, "auto")
         own.law = Law(law.choice("kind", LAWS), **{key: law.number(key, *limits) for key, limits in LAW_NUMBERS.items()})
-        if own.law.kind == "decibel" and not own.law.range_db * own.law.full_value > 0.0:
-            own.refuse("has the law decibel, which needs range_db and full_value above 0")
+        if own.law.kind == "decibel" and not own.law.range_db > 0.0:
+            own.refuse("has the law decibel, which needs range_db above 0")
     elif own.source != "logs":
         own.refuse("lacks the key 'law', the meaning of the values")
     for key in NEEDED.get(own.source, ()):
         if getattr(own, key) is None or key == "range_step_m" and own.range_step_m == 0.0:
             own.refuse(f"lacks the key '{key}', or has it 0")
+    if own.bearing_first_deg == own.bearing_last_deg != 0.0:
+        own.refuse("has the same bearing_first_deg and bearing_last_deg")
     if own.spread == "sine" and max(abs(own.bearing_first_deg), abs(own.bearing_last_deg)) > 90.0:
         own.refuse("has bearings beyond -90 and 90 degrees, which 'spread: sine' cannot have")
     return own

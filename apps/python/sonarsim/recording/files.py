@@ -30,8 +30,7 @@ def read_files(own, max_pings):
     recording = joined(own, parts)
     if own.kind == "imaging" and recording.bearing_rad is None:
         if own.source != "files" and not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
-            own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no "
-                       "bearings")
+            own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no bearings")
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
     return recording
 
