@@ -94,6 +94,26 @@ TEST_CASE("water's surface: what hides it, and a sonar above it") {
     CHECK(area_between(scene_below(), view, pitched(-90.0, {0.0, 0.0, 6.0}), 0.0, 40.0) == 0.0);
 }
 
+TEST_CASE("water surface: a wall ends there, for every engine and for the reference") {
+    Scene scene = rectangle_scene({5, -1, -2}, {5, 1, 2}, 0.5F);
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 80.0;
+    const Sonar sonar = noise_free(config);
+    for (const double top_m : {-0.7, 0.3}) {
+        scene.water_surface = WaterSurface{top_m, 1.0F, std::nullopt};
+        const Pose pose{.translation = {0.0, 0.0, -1.0}};
+        const Pose T_world_sensor = sensor_pose(sonar, pose, 0);
+        const Reference truth = cast_reference(Caster(scene), scene, sonar.settings.view,
+                                               T_world_sensor, {0.003, 16.0, 400'000});
+        for (const EngineKind kind : {EngineKind::rays, EngineKind::strips}) {
+            const auto engine = engine_of(scene, kind);
+            const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+            CHECK(area_of(traced.samples) == approx(2.0 * (top_m + 2.0)).epsilon(0.02));
+            CHECK(error_without_noise(expected_image(sonar, scene, kind, pose), truth) < 0.03);
+        }
+    }
+}
+
 TEST_CASE("water surface: the second bottom echo of an echosounder and of a side-scan sonar") {
     // Sound goes down, up to the surface d above, down to the bottom h below, and up: half of
     // that, 2 h + d, is the range at nadir. Off nadir by an angle a, in the unfolded world, the

@@ -2,11 +2,9 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <utility>
 
 #include "core/build_info.h"
 #include "core/clock.h"

@@ -1,8 +1,5 @@
 #include "simulate/assembly/assemble.h"
 
-#include <spdlog/fmt/fmt.h>
-
-#include <algorithm>
 #include <iterator>
 
 #include "core/error.h"

@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,7 +1,4 @@
-#include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <memory>
 #include <variant>
 
 #include "core/error.h"

@@ -1,6 +1,3 @@
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/error.h"

@@ -1,6 +1,5 @@
 #include "simulate/assembly/mission_objects.h"
 
-#include <algorithm>
 #include <set>
 
 #include "core/error.h"

@@ -1,7 +1,5 @@
 #include "simulate/assembly/particles.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "core/decibel.h"

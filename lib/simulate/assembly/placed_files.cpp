@@ -1,7 +1,5 @@
 #include "simulate/assembly/placed_files.h"
 
-#include <algorithm>
-
 #include "core/pose.h"
 #include "core/text.h"
 #include "input/scene/meshes/read_mesh.h"

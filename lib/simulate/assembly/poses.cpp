@@ -1,6 +1,5 @@
 #include "simulate/assembly/poses.h"
 
-#include <cmath>
 #include <variant>
 
 #include "core/elementary.h"

@@ -1,6 +1,5 @@
 #include "simulate/assembly/scene_parts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <variant>

@@ -1,6 +1,5 @@
 #include "simulate/assembly/sound_profiles.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 

@@ -1,7 +1,5 @@
 #include "simulate/calibrated/model.h"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>

@@ -1,8 +1,6 @@
 #include "simulate/trace/surface_echoes.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>

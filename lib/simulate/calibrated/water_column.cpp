@@ -1,9 +1,5 @@
 #include "simulate/calibrated/water_column.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/lanes.h"

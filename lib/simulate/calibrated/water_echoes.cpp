@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "simulate/calibrated/kind_echoes.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "simulate/labels/hidden_surface.h"
 #include "simulate/trace/arrivals.h"

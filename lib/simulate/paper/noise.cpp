@@ -1,8 +1,6 @@
 #include "simulate/paper/noise.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
 #include "core/elementary.h"

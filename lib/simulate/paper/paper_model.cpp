@@ -2,7 +2,6 @@
 
 #include <xmmintrin.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 

@@ -1,6 +1,5 @@
 #include "simulate/trace/surface_echoes.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "simulate/paper/echoes.h"

@@ -1,6 +1,5 @@
 #include "simulate/product/bathymetry.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>

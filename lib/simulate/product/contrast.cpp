@@ -1,8 +1,6 @@
 #include "simulate/product/contrast.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <map>
 
 #include "core/elementary.h"

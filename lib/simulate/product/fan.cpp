@@ -1,7 +1,5 @@
 #include "simulate/product/fan.h"
 
-#include <cmath>
-
 #include "core/elementary.h"
 #include "core/units.h"
 

@@ -1,7 +1,5 @@
 #include "simulate/product/sidescan.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "simulate/trace/arrivals.h"

@@ -1,9 +1,5 @@
 #include "simulate/product/soundings.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "core/elementary.h"
 #include "simulate/trace/arrivals.h"
 

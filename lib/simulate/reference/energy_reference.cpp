@@ -1,5 +1,4 @@
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "simulate/reference/reference.h"
 #include "simulate/trace/apply_maps.h"

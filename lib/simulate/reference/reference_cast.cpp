@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "core/random.h"
 
@@ -53,12 +53,21 @@ class PointDensity {
     std::size_t own_shares_ = 0;
 };
 
+/// Sound from below the water's surface does not arrive above it. Scene-local, m.
+double highest_received(const ReferenceView& looking) {
+    const auto& surface = looking.scene.water_surface;
+    if (!surface || looking.T_world_sensor.translation.z() > surface->height_m)
+        return std::numeric_limits<double>::infinity();
+    return surface->height_m + 1e-3 - looking.scene.origin.z();
+}
+
 struct Cast {
     const ReferenceView& looking;
     const RayLayout& layout;
     const PointDensity& points;
     double cell_rad2;  ///< cell of a ray: step across times step along
     const PointSink& found;
+    double top_m = highest_received(looking);  ///< height of the water's surface, scene-local
     std::uint64_t rays = 0;
 
     /// Reports the point that a ray has met. `density`: solid_angle_density() of its direction.
@@ -68,6 +77,7 @@ struct Cast {
         const double facing = normal.dot(direction.cast<double>());
         const double range =
             normal.dot((facet.vertex - looking.pose.position).cast<double>()) / facing;
+        if (looking.pose.position.z() + range * direction.z() > top_m) return;
         const double cosine = std::fabs(facing);
         const double rays_per_m2 = cosine / (range * range * density * cell_rad2);
         found({direction, range, cosine, 1.0 / (rays_per_m2 + points.of(index)), beam, facet});

@@ -1,6 +1,4 @@
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/random.h"

@@ -1,7 +1,6 @@
 #include "simulate/sonar/sonar.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

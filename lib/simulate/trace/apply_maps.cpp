@@ -1,7 +1,5 @@
 #include "simulate/trace/apply_maps.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "simulate/trace/arrivals.h"

@@ -1,7 +1,5 @@
 #include "simulate/trace/bounce_tracer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "simulate/trace/apply_maps.h"

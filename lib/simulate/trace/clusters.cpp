@@ -1,8 +1,6 @@
 #include "simulate/trace/clusters.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include "core/groups.h"

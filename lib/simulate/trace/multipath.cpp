@@ -1,7 +1,5 @@
 #include "simulate/trace/multipath.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

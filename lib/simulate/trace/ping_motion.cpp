@@ -1,8 +1,5 @@
 #include "simulate/trace/ping_motion.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/elementary.h"
 #include "simulate/trace/sample_kinds.h"
 

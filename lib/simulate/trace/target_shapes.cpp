@@ -1,6 +1,5 @@
 #include "simulate/trace/target_shapes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>

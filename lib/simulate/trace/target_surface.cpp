@@ -1,7 +1,6 @@
 #include "simulate/trace/target_surface.h"
 
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <utility>
 

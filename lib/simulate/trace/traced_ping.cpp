@@ -1,10 +1,9 @@
 #include "simulate/trace/traced_ping.h"
 
-#include <algorithm>
-
 #include "core/clock.h"
 #include "simulate/trace/sample_kinds.h"
 #include "simulate/trace/target_surface.h"
+#include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
 
@@ -26,6 +25,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         targets = target_surface(*settings.targets, view, scene, engine, T_world_sensor);
     replace_samples(targets, view, samples);
     add_behind_walls(settings.wall_transmissions, {view, scene, engine, T_world_sensor}, samples);
+    cut_above_water(scene, T_world_sensor, samples);
     traced.counts.samples += samples.items.size();
     traced.counts.dropped_samples = samples.dropped;
     const auto finish = [&](Samples& of) {
@@ -39,6 +39,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     if (settings.multipath.on && &engine.by_rays() != &engine) {
         Samples rays = visible_surface(view, engine.by_rays(), T_world_sensor);
         replace_samples(targets, view, rays);
+        cut_above_water(scene, T_world_sensor, rays);
         finish(rays);
         traced.rays = std::move(rays);
     }

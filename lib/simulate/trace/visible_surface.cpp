@@ -1,7 +1,5 @@
 #include "simulate/trace/visible_surface.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 

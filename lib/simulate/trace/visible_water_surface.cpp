@@ -1,11 +1,11 @@
 #include "simulate/trace/visible_water_surface.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/units.h"
 #include "simulate/trace/bounce_path.h"
+#include "simulate/trace/ping_motion.h"
 #include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {
@@ -113,7 +113,49 @@ class SurfaceCutter {
     std::uint32_t material_;
 };
 
+// Surface that lies in that of the water stays, with its rounding.
+constexpr float surface_slack_m = 1e-3F;
+
+/// Keeps the part of a sample below the water's surface, `room_m` above its middle; false: none.
+bool keep_below(const Eigen::Vector3f& up, float room_m, Sample& sample) {
+    const float rise_u = up.dot(sample.edge_u);
+    const float rise_v = up.dot(sample.edge_v);
+    const float half_m = std::max(std::fabs(rise_u) + std::fabs(rise_v), surface_slack_m);
+    const float share = 0.5F + 0.5F * (room_m + surface_slack_m) / half_m;
+    if (!(share > 0.0F)) return false;
+    if (share >= 1.0F) return true;
+    const bool is_u = std::fabs(rise_u) > std::fabs(rise_v);
+    Eigen::Vector3f& edge = is_u ? sample.edge_u : sample.edge_v;
+    sample.position -= std::copysign(1.0F - share, is_u ? rise_u : rise_v) * edge;
+    edge *= share;
+    sample.area_m2 *= share;
+    return true;
+}
+
 }  // namespace
+
+void cut_above_water(const Scene& scene, const Pose& T_world_sensor, Samples& samples) {
+    const std::optional<WaterMirror> surface = mirror_of(scene.water_surface, T_world_sensor);
+    if (!surface) return;
+    const double top_m = scene.water_surface->height_m;
+    if (scene.bodies.empty() && scene.bounds_max.z() <= top_m) return;
+    const TruePlaces places{T_world_sensor, scene.sound_profile.get()};
+    std::vector<Sample>& items = samples.items;
+    std::size_t kept = 0;
+    std::size_t next = 0;
+    const auto keep_up_to = [&](std::size_t end) {
+        for (; next < end; ++next) {
+            const Eigen::Vector3d at = places.of(items[next].position.cast<double>());
+            if (keep_below(surface->up, static_cast<float>(top_m - at.z()), items[next]))
+                items[kept++] = items[next];
+        }
+        return static_cast<std::uint32_t>(kept);
+    };
+    for (std::uint32_t& begin : samples.beam_begin)
+        begin = keep_up_to(begin);
+    keep_up_to(items.size());
+    items.resize(kept);
+}
 
 void ScatteringSurface::add(const TraceContext& context, const PingMotion& motion,
                             std::uint32_t /*pose*/, Samples& samples) const {

@@ -48,6 +48,9 @@ inline std::optional<WaterMirror> mirror_of(const std::optional<WaterSurface>& s
     return WaterMirror{up, height, surface->reflection, 2.0F * height * up};
 }
 
+/// Cuts off what lies above the water's surface, where sound from below does not arrive.
+void cut_above_water(const Scene& scene, const Pose& T_world_sensor, Samples& samples);
+
 /// The water's surface that scatters, as a sonar below it sees it: in its view, and for a side-scan
 /// sonar all around the track, since its beam patterns reach upwards as well. The material of the
 /// samples is the one after those of the scene; they have no instance. One ray decides on each.

@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 

@@ -1,7 +1,6 @@
 #include "simulate/visibility/engine.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace sonarsim {

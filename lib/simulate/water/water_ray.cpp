@@ -1,8 +1,6 @@
 #include "simulate/water/water_ray.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/elementary.h"
 

@@ -1,8 +1,4 @@
-#include <immintrin.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/lanes.h"
 #include "core/units.h"

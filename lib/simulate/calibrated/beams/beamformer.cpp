@@ -3,8 +3,6 @@
 #include <immintrin.h>
 
 #include <algorithm>
-#include <cmath>
-#include <complex>
 #include <utility>
 
 #include "core/elementary.h"

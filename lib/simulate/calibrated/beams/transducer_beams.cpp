@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "core/decibel.h"
 #include "core/units.h"

@@ -1,7 +1,5 @@
 #include "simulate/calibrated/equation/sonar_equation.h"
 
-#include <algorithm>
-
 #include "core/decibel.h"
 #include "core/lanes.h"
 #include "simulate/calibrated/equation/instrument_levels.h"

@@ -1,9 +1,5 @@
 #include "simulate/calibrated/equation/specular_echoes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "simulate/calibrated/equation/instrument_levels.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/visible_water_surface.h"

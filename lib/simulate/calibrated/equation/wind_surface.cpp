@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "core/decibel.h"
 #include "core/elementary.h"

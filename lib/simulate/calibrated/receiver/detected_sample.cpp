@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 #include "core/elementary.h"
 #include "core/lanes.h"

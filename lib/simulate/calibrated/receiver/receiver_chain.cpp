@@ -1,9 +1,5 @@
 #include "simulate/calibrated/receiver/receiver_chain.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 #include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/lanes.h"

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/signal/directivity.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/decibel.h"
 #include "core/elementary.h"

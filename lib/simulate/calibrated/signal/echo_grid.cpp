@@ -1,7 +1,6 @@
 #include "simulate/calibrated/signal/echo_grid.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "core/lanes.h"
 

@@ -1,6 +1,5 @@
 #include "simulate/calibrated/signal/line_array.h"
 
-#include <cmath>
 #include <span>
 
 #include "core/decibel.h"

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/signal/range_response.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/elementary.h"
 #include "core/units.h"

@@ -1,8 +1,6 @@
 #include "simulate/calibrated/speckle/cell_footprints.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "simulate/trace/arrivals.h"

@@ -1,8 +1,5 @@
 #include "simulate/calibrated/speckle/scatterers.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {

@@ -1,8 +1,6 @@
 #include "simulate/calibrated/speckle/speckle.h"
 
 #include <algorithm>
-#include <cmath>
-#include <complex>
 #include <optional>
 
 #include "core/elementary.h"

@@ -1,7 +1,6 @@
 #include "simulate/visibility/octree/tree.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,8 +1,6 @@
 #include "simulate/visibility/rays/bent_rays.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <vector>
 

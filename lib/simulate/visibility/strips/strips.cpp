@@ -1,6 +1,5 @@
 #include "simulate/visibility/strips/strips.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
