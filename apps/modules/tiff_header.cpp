@@ -144,6 +144,12 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     }
     head.has_grid = 1;
     const int system = geo_key(keys, projected_system);
+    constexpr std::array mercators{3395, 3785, 3857};  // of the world
+    if (std::ranges::find(mercators, system) != mercators.end()) {
+        throw std::runtime_error(
+            "the metres of its system, a Mercator map of the world, are longer than those of the "
+            "ground; make a map in metres of it, as with gdalwarp -t_srs EPSG:32632");
+    }
     const bool in_degrees = geo_key(keys, model_type) == geographic;
     const double unit_m = in_degrees ? 1.0 : metres_of_unit(keys);
     const bool has_unit = geo_key(keys, linear_units) != 0 || system == 0 || is_metric(system);

@@ -192,7 +192,7 @@ class Pings(tool.ToolTest):
                             (("mcap", "--tile", "64"), "--format mcap takes no --tile"),
                             (("holoocean", "--sensor", "mbes"), "has no imaging sonar"),
                             (("holoocean", "--sensor", "fls", "--mesh", tool.ROOT / "README.md"),
-                             "is not a file that this mission read")):
+                             "is not the file of the scene or its heightmap")):
             self.assert_refused("export", text, self.rendered, self.folder / "dest", "--format", *words)
         shutil.copytree(self.rendered, self.folder / "less")
         with tool.edited(self.folder / "less/dataset.json") as description:

@@ -1,5 +1,6 @@
 #include "simulate/trace/visible_water_surface.h"
 
+#include "simulate/reference/reference.h"
 #include "support/bounces.h"
 
 namespace {

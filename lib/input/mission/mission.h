@@ -209,6 +209,8 @@ void describe(auto& v, Mission& c) {
         !is_visible || !c.water.profile, {"scene", "water"},
         "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
         "out water.profile or these keys");
+    v.require(c.water.layers.empty() || !c.water.profile, {"water"},
+              "water.layers need straight paths of sound: leave out water.profile or the layers");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_names,
              "method that finds the visible surface; sensors.md has what `auto` takes");

@@ -15,13 +15,22 @@ namespace {
 constexpr std::uint32_t all_variants = 0xFFFFFFFFU;
 constexpr std::uint32_t no_sensor = 0xFFFFFFFFU;
 
+/// True if a setting of the command line fixes the key of a rule.
+bool is_fixed(const VaryConfig& rule, const MissionSource& source) {
+    return std::ranges::any_of(source.overrides, [&](const std::string& setting) {
+        return setting.starts_with(rule.key + "=");
+    });
+}
+
 /// Keeps only the rules that are drawn for every ping.
-void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
+void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules,
+                         const MissionSource& source) {
     YamlNode* list = root.find("vary");
     if (list == nullptr) return;
     std::vector<YamlNode> kept;
     for (std::size_t k = 0; k < rules.size(); ++k) {
-        if (rules[k].per == VaryPer::ping) kept.push_back(list->items[k]);
+        if (rules[k].per == VaryPer::ping && !is_fixed(rules[k], source))
+            kept.push_back(list->items[k]);
     }
     list->items = std::move(kept);
     if (list->items.empty()) erase_key(root, "vary");
@@ -60,10 +69,10 @@ Variants::Variants(const Mission& mission, const MissionSource& source, SonarKey
     : mission_(mission), source_(source), sonars_(sonars), whole_(read_mission_document(source)) {
     fill_in_rules(whole_, source.base_folder);
     erase_key(whole_, "variants");
-    keep_rules_of_pings(whole_, mission.vary);
+    keep_rules_of_pings(whole_, mission.vary, source);
     const std::vector<VaryConfig>& rules = mission_.vary;
     for (std::size_t k = 0; k < rules.size(); ++k)
-        if (rules[k].per != VaryPer::ping) order_.push_back(k);
+        if (rules[k].per != VaryPer::ping && !is_fixed(rules[k], source)) order_.push_back(k);
     const auto first_scaled = std::stable_partition(order_.begin(), order_.end(),
                                                     [&](std::size_t k) { return !rules[k].scale; });
     const bool is_changed = std::any_of(first_scaled, order_.end(), [&](std::size_t scaled) {

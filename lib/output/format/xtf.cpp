@@ -51,7 +51,8 @@ void put_channel(std::string& header, std::uint8_t type, const XtfFile& file) {
 /// Writes the date and time of day to the fields from byte 14 on.
 void put_time(std::string& record, double t_s) {
     using namespace std::chrono;
-    const auto hundredths = static_cast<std::int64_t>(std::floor(t_s * 100.0));
+    // 0.29 s times 100 is less than 29.
+    const auto hundredths = static_cast<std::int64_t>(std::floor(t_s * 100.0 + 1e-3));
     const sys_time<duration<std::int64_t, std::centi>> time{
         duration<std::int64_t, std::centi>(hundredths)};
     const auto day = floor<days>(time);

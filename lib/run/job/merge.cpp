@@ -151,6 +151,7 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
     remove_leftovers(out);
     claim_variants(out, json);
     const std::vector<fs::path> names = folders_of_variants("", json);
+    std::uint64_t absent = 0;
     for (std::size_t i = 0; i < names.size() && !summary.stopped; ++i) {
         std::vector<fs::path> sources;
         for (const fs::path& part : parts) {
@@ -159,10 +160,15 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
         }
         const fs::path target = out / names[i];
         if (!sources.empty()) DatasetMerge(sources, target).run(stop, summary);
-        if (sources.empty() && !is_complete(target)) summary.complete = false;
+        if (sources.empty() && !is_complete(target)) ++absent;
         if (stop) summary.stopped = true;
         if (progress) progress(i + 1, names.size());
     }
+    if (absent == 0) return;
+    summary.complete = false;
+    // As many pings as the others have on average.
+    const std::uint64_t known = summary.pings + summary.skipped + summary.missing;
+    summary.missing += absent * known / std::max<std::uint64_t>(names.size() - absent, 1);
 }
 
 }  // namespace

@@ -204,7 +204,9 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
     std::vector<float> mean;
-    if (detected.changes() && context.terms.random > 0) mean.resize(ping.intensity.size());
+    const bool is_drawn = instrument.speckle.mode != SpeckleMode::none;
+    if (detected.changes() && context.terms.random > 0 && is_drawn)
+        mean.resize(ping.intensity.size());
     form_look(*this, traced, context, mean, ping);
     const ImageRows rows{
         .range_min_m = context.view.range_min_m,

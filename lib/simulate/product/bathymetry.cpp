@@ -162,6 +162,13 @@ GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m) {
     return grid;
 }
 
+double cell_of_soundings(const GroundGrid& grid, std::uint64_t count) {
+    const auto cells = std::ranges::count_if(grid.weight, [](double weight) { return weight > 0; });
+    const double wanted =
+        soundings_per_cell * static_cast<double>(cells) / static_cast<double>(count);
+    return std::max(round_up_125(grid.cell_m * std::sqrt(wanted)), finest_cell_m);
+}
+
 Picture draw_bathymetry(const GroundGrid& grid) {
     const std::vector<float> z = grid.mean();
     const HeightRange range = height_range(z);

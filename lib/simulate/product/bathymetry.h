@@ -46,6 +46,10 @@ struct GroundGrid {
 /// are larger than the key says if the grid would exceed 2^24 cells.
 GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m);
 
+/// The size by which those cells of a grid that have soundings, `count` in all, hold four each. The
+/// box of the soundings may hold much ground without any.
+double cell_of_soundings(const GroundGrid& grid, std::uint64_t count);
+
 /// Draws the map: colours by depth, exaggerated relief shaded by light from the north-west, a scale
 /// bar and a legend. Cells without soundings are dark. At most 4,096 pixels a side.
 Picture draw_bathymetry(const GroundGrid& bathymetry);

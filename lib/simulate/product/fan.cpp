@@ -7,11 +7,6 @@ namespace sonarsim {
 
 namespace {
 
-std::array<double, 3> three_weights(double u) {
-    const double s = (2.0 - std::sqrt(1.0 - 3.0 * u * u)) / 3.0;
-    return {0.5 * (s - u), 1.0 - s, 0.5 * (s + u)};
-}
-
 /// Rounds weights to multiples of 1/256 that still add up to 1, by rounding the cumulative sums.
 void round_weights(std::span<const double> exact, float* rounded) {
     double sum = 0.0;
@@ -129,26 +124,16 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
 }  // namespace
 
 KernelTable make_kernel(double extent, int unit) {
-    const double window = std::max(0.0, extent - 1.0);
-    const int points = 1 + static_cast<int>(std::ceil(16.0 * window));
-    const int bins = 3 + static_cast<int>(std::ceil(window));  // that may have a weight
+    const auto bins = std::max(1, static_cast<int>(std::lround(extent)));
+    const std::vector<double> equal(bins, 1.0 / bins);
     KernelTable table;
     table.taps = (bins + unit - 1) / unit * unit;
     table.weights.assign(static_cast<std::size_t>(KernelTable::phases) * table.taps, 0.0F);
     for (int phase = 0; phase < KernelTable::phases; ++phase) {
         // The centres of bins are at whole numbers here; the pixel's bin is 0.
         const double centre = (phase + 0.5) / KernelTable::phases - 0.5;
-        const int first = static_cast<int>(std::floor(centre - 0.5 * window + 0.5)) - 1;
-        std::vector<double> weights(bins);
-        for (int k = 0; k < points; ++k) {
-            const double at = centre + window * ((k + 0.5) / points - 0.5);
-            const double nearest = std::floor(at + 0.5);
-            const std::array<double, 3> three = three_weights(at - nearest);
-            for (int t = 0; t < 3; ++t)
-                weights[static_cast<int>(nearest) - 1 - first + t] += three[t] / points;
-        }
-        table.first[phase] = first;
-        round_weights(weights, table.weights.data() + static_cast<std::size_t>(phase) * table.taps);
+        table.first[phase] = static_cast<int>(std::ceil(centre - 0.5 * bins));
+        round_weights(equal, table.weights.data() + static_cast<std::size_t>(phase) * table.taps);
     }
     return table;
 }

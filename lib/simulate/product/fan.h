@@ -17,18 +17,10 @@
 
 namespace sonarsim {
 
-// Interpolation weights that keep the variance of white noise uniform. Bilinear weights, or the
-// share of a pixel that each bin covers, do not: at the middle of a bin the noise passes unchanged,
-// between two bins it is averaged. Pixels as large as bins then show a fixed moire pattern.
-//
-// Here three bins have the weights (s - u)/2, 1 - s, (s + u)/2 at the place u in [-1/2, 1/2] bins
-// from the middle one. Their sum is 1 and their centroid is u, for any s. The variance of
-// independent noise is multiplied by the sum of their squares, (s^2 + u^2)/2 + (1 - s)^2. This is
-// 1/2 for every u with
-//
-//     s(u) = (2 - sqrt(1 - 3 u^2)) / 3.
-//
-// Weights of 0 or more cannot exceed 1/2 between two bins: this is the sharpest such kernel.
+// Displays show the bin at the centre of a pixel, so that fans of real sonars have steps at the
+// borders of beams and the whole contrast of the grain. Where a pixel covers n bins or more it has
+// the mean of the n bins that are nearest. Bilinear weights would halve the variance of noise
+// between two bins and keep it at their middles.
 
 /// The weights of successive bins for pixels centred at `phases` places within a bin. They are
 /// multiples of 1/256 and add up to exactly 1, so that uniform surface stays uniform.
@@ -40,9 +32,8 @@ struct KernelTable {
     std::array<int, phases> first;  ///< the bin of the first tap, counted from the pixel's bin
 };
 
-/// Makes the kernel for pixels that are `extent` bins wide: the kernel of three bins up to an
-/// extent of 1, and beyond it the mean of that kernel over the `extent - 1` bins around the pixel's
-/// centre. `taps` is rounded up to a multiple of `unit`.
+/// Makes the kernel for pixels that are `extent` bins wide: equal weights of as many bins as that,
+/// rounded, at least one. `taps` is rounded up to a multiple of `unit`.
 KernelTable make_kernel(double extent, int unit);
 
 /// The place of a pixel's centre: its bin and the phase within the bin.
@@ -74,10 +65,9 @@ struct FanPlace {
 FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row);
 bool is_inside_sector(const View& view, const FanPlace& place);
 
-/// The mapping from a sonar's bins to the pixels of its fan, made once per sonar. A pixel is the
-/// weighted mean of the bins around it, by KernelTable in range and in azimuth; a larger pixel
-/// takes the mean of the bins that it covers. The area outside the sector is black, and edges are
-/// smooth: 64 points sample the share of a pixel inside.
+/// The mapping from a sonar's bins to the pixels of its fan, made once per sonar, by KernelTable in
+/// range and in azimuth. The area outside the sector is black, and edges are smooth: 64 points
+/// sample the share of a pixel inside.
 struct FanMap {
     /// It is small, since every ping reads all pixels through the caches.
     struct Pixel {

@@ -86,12 +86,10 @@ void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* 
 }
 
 /// Weighs the bins of at most `fan_block` pixels. The number of beam taps is a multiple of 4.
-/// Nearly all pixels of a fan have three bins in range and four beams: as constants they save time.
-template <int fixed_range_taps, int fixed_beam_taps>
 void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
                 std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
-    const int range_taps = fixed_range_taps > 0 ? fixed_range_taps : map.range_kernel.taps;
-    const int beam_taps = fixed_beam_taps > 0 ? fixed_beam_taps : beam_kernel.taps;
+    const int range_taps = map.range_kernel.taps;
+    const int beam_taps = beam_kernel.taps;
     add_lanes(
         pixels,
         [&](const FanMap::Pixel& pixel) {
@@ -124,7 +122,8 @@ std::uint8_t grey_of(float sum, float scale) {
 
 void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& bins, float scale,
                std::vector<std::uint8_t>& picture) {
-    const bool three_by_four = map.range_kernel.taps == 3 && ring.beam_kernel.taps == 4;
+    const bool has_one_bin =
+        map.range_kernel.weights.front() == 1.0F && ring.beam_kernel.weights.front() == 1.0F;
     std::array<float, fan_block> sums{};
     std::array<std::uint8_t, fan_block> grey;
     RunWriter out(ring, picture);
@@ -132,10 +131,12 @@ void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& b
     for (std::size_t begin = 0; begin < ring.pixels.size(); begin += fan_block) {
         const auto pixels =
             std::span(ring.pixels).subspan(begin, std::min(fan_block, ring.pixels.size() - begin));
-        if (three_by_four)
-            weigh_bins<3, 4>(map, ring.beam_kernel, pixels, bins, sums.data());
-        else
-            weigh_bins<0, 0>(map, ring.beam_kernel, pixels, bins, sums.data());
+        if (has_one_bin) {
+            for (std::size_t p = 0; p < pixels.size(); ++p)
+                sums[p] = bins.values[static_cast<std::size_t>(pixels[p].first_bin)];
+        } else {
+            weigh_bins(map, ring.beam_kernel, pixels, bins, sums.data());
+        }
         for (; edge != ring.edges.end() && edge->pixel < begin + pixels.size(); ++edge)
             sums[edge->pixel - begin] *= edge->covered;
         for (std::size_t p = 0; p < pixels.size(); ++p)

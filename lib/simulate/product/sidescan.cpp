@@ -12,6 +12,11 @@ double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
 }
 
+/// False in the columns before the first bin.
+bool is_recorded(const Sonar& sonar, const SwathRow& row, double ground_m) {
+    return std::hypot(ground_m, row.swath.distance_m) >= sonar.config.range_min_m;
+}
+
 /// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.
 double echo_at_ground(const Sonar& sonar, const SwathRow& row, double ground_m, int side) {
     const double distance_m = row.swath.distance_m;
@@ -100,6 +105,7 @@ void add_between(const Sonar& sonar, const SwathRow& before, const SwathRow& row
     for (const int side : {1, -1}) {
         for (int n = 0; (n + 0.5) * step < reach; ++n) {
             const double ground = (n + 0.5) * step;
+            if (!is_recorded(sonar, row, ground) || !is_recorded(sonar, first, ground)) continue;
             const Eigen::Vector2d from = first.swath.nadir_m + side * ground * first.swath.port;
             const Eigen::Vector2d way = row.swath.nadir_m + side * ground * row.swath.port - from;
             const double echo = echo_at_ground(sonar, row, ground, side);

@@ -23,8 +23,7 @@ DEFAULTS = {"beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
 
 
 def program_of(package):
-    """The program of a package folder, .../python/sonarsim: SONARSIM, else the one that came with it, else that of PATH.
-    Links are not followed: those of a build tree lead to the source."""
+    """The program of a package folder, .../python/sonarsim (links kept): SONARSIM, else that beside it, else of PATH."""
     python = pathlib.Path(package).absolute().parent
     came_with_it = [python.parent / "sonarsim", *(prefix / "bin" / "sonarsim" for prefix in python.parents[2:3])]
     return (os.environ.get("SONARSIM") or next((str(one) for one in came_with_it if one.is_file()), None)

@@ -4,7 +4,6 @@ import concurrent.futures
 import itertools
 import multiprocessing
 import os
-import pathlib
 import signal
 import sys
 from concurrent.futures.process import BrokenProcessPool
@@ -121,11 +120,11 @@ def prepare_all(pictures, numbers, options):
 
 def export_pings(options):
     """Writes a format for the fans of each dataset."""
-    found = [one for folder in options.folders for one in named_datasets(pathlib.Path(folder), len(options.folders) > 1)]
-    require_known(options.sensor, {name: 0 for _, one in found for name in one.sensors}, "--sensor")
+    found = named_datasets(options.folders)
+    require_known(options.sensor, {name: 0 for one in found.values() for name in one.sensors}, "--sensor")
     lines = [f"{options.dest}: {options.format}"]
     with formats.destination(options.dest, options.folders) as folder:
-        for name, dataset in found:
+        for name, dataset in found.items():
             sensors = [one for one in dataset.sensors.values() if one.kind in ("imaging", "profiling") and len(one)
                        and (not options.sensor or one.name in options.sensor)]
             if not sensors:

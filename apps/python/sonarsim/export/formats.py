@@ -145,8 +145,7 @@ class Yolo(Format):
 
 
 class Masks(Format):
-    """img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of the class of each pixel, splits/PART.txt, and
-    meta.json with names and colours. Number 0 is the background."""
+    """img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the class of each pixel (0: background), splits/PART.txt, meta.json."""
 
     def add(self, piece):
         self.place_picture(piece, "img_dir")

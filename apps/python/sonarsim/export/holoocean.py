@@ -53,9 +53,9 @@ def matrix_of(pose):
 def config_of(sensor, mission):
     """Config.json with the keys of both layouts in use: within `agents`, and at its head."""
     own = mission["sensors"][sensor.name]
-    elevation = own["instrument"]["beam"]["elevation_width_deg"] if "instrument" in sensor.description else own["elevation_deg"]
+    width = own["instrument"]["beam"]["elevation_width_deg"] if "instrument" in sensor.description else 0
     (low, *_, high), azimuths = sensor.range_edges_m.tolist(), sensor.azimuth_edges_rad
-    sonar = {"Azimuth": round(float(np.degrees(np.ptp(azimuths))), 9), "Elevation": elevation, "RangeMin": low, "RangeMax": high,
+    sonar = {"Azimuth": round(float(np.degrees(np.ptp(azimuths))), 9), "Elevation": width or own["elevation_deg"], "RangeMin": low, "RangeMax": high,
              "RangeBins": len(sensor.range_edges_m) - 1, "AzimuthBins": len(azimuths) - 1}
     kinds = [{"sensor_type": "PoseSensor"}, {"sensor_type": "ImagingSonar", "sensor_name": sensor.name, "configuration": sonar}]
     return {"name": mission["name"], "main_agent": "vehicle", "agents": [{"agent_name": "vehicle", "sensors": kinds}],
@@ -64,9 +64,9 @@ def config_of(sensor, mission):
 
 def write_surface(folder, source, dataset, scene):
     """A file of the scene in the frame of the world: scene.file as mesh.glb, or scene.heightmap as heights.tif."""
-    data = source.read_bytes()
-    if hashlib.sha256(data).hexdigest() not in [one["sha256"] for one in dataset.description["inputs"]]:
-        raise ValueError(f"{source}: is not a file that this mission read; --mesh takes its scene.file or its heightmap")
+    data, named = source.read_bytes(), (scene.get("file"), (scene.get("heightmap") or {}).get("file"))
+    if hashlib.sha256(data).hexdigest() not in [one["sha256"] for one in dataset.description["inputs"] if one["file"] in named]:
+        raise ValueError(f"{source}: is not the file of the scene or its heightmap: --mesh takes these")
     if data[:4] in (b"II*\0", b"MM\0*") and scene.get("heightmap"):
         write_heights(folder / "heights.tif", source, scene["heightmap"])
     else:

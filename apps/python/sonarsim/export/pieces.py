@@ -44,7 +44,8 @@ def prepare(picture, numbers, options):
         kept = [one for one in objects if is_kept(one, picture, options)]
     faint = len(objects) - len(kept)
     if options.format == "crops":
-        pieces, left_out = crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
+        boxes = [box for one in objects for box in (one["box"], one["shadow"]) if box]
+        pieces, left_out = crops_of(picture, pixels, kept, boxes, options)
         return pieces, {"faint": faint, **left_out}
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
@@ -65,8 +66,7 @@ def prepare(picture, numbers, options):
 
 
 def crops_of(picture, pixels, objects, boxes, options):
-    """(crops, counts of what is left out) of a picture: one around each object and some of the bed alone, at one scale. `boxes` are
-    those of all objects, faint ones too."""
+    """(crops, counts of what is left out) of a picture: one around each object and some of the bed, clear of all `boxes`."""
     image = Image.fromarray(np.ascontiguousarray(pixels))
     # A screen repeats the rows of pings that are further apart than its own.
     smoothing = Image.Resampling.BOX if picture.kind == "strip" else Image.Resampling.BILINEAR
@@ -173,7 +173,8 @@ def is_kept(one, picture, options):
                       bool(contrasts) and max(contrasts) < options.min_contrast_db or
                       one.get("grey", options.min_grey) < options.min_grey)
     has_crowds = options.faint == "crowd" and options.format in ("coco", "masks")
-    return (not one["iscrowd"] or has_crowds) and box_of(one, picture.height, one["shadow"], options.box) is not None
+    has_box = options.format == "masks" or box_of(one, picture.height, one["shadow"], options.box) is not None
+    return (not one["iscrowd"] or has_crowds) and has_box
 
 
 def box_of(one, height, shadow, sort):
@@ -211,7 +212,7 @@ def show(one, picture, frame, options):
 
 def pixels_of(picture, is_whole, options):
     """A picture's greys (the square root, raw/: linear) or colours in 8 bits, None if not needed; may its file be copied."""
-    is_copy, is_raw = False, picture.path.parent.name == "raw"
+    is_copy, is_raw = False, picture.kind in ("fan", "bins") and picture.path.parent.name == "raw"
     try:
         if picture.path.suffix == ".npy":
             values = data.read_npy(picture.path.read_bytes()).astype(np.float64)

@@ -38,15 +38,11 @@ class Source:
     name, 0 for no object), `classes` (number k is entry k - 1) and `pictures`."""
 
     def __init__(self, folders, options):
-        self.datasets, self._names = [], []
-        for folder in map(pathlib.Path, folders):
-            for name, dataset in named_datasets(folder, len(folders) > 1):
-                if not dataset.classes:
-                    raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
-                self._names.append(name)
-                self.datasets.append(dataset)
-        if len({one.folder.resolve() for one in self.datasets}) < len(self.datasets):
-            raise ValueError("a dataset is given twice")
+        found = named_datasets(folders)
+        self.datasets, self._names = list(found.values()), list(found)
+        for dataset in self.datasets:
+            if not dataset.classes:
+                raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
         self._shares = self._shares_of_datasets(options)
         self._number_classes(options)
         require_known(options.sensor, {name: 0 for one in self.datasets for name in one.sensors}, "--sensor")
@@ -104,21 +100,28 @@ class Source:
         stem = picture.path.name.split(".")[0]
         # Trainers cut the name of a sample at its first point, shells at a blank.
         picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join(filter(None, [self._names[index], sensor, stem])))
-        first, other = picture.name, 2
-        while picture.name in self._taken:
-            picture.name, other = f"{first}-{other}", other + 1
+        picture.name = unused(picture.name, self._taken)
         self._taken.add(picture.name)
         picture.dataset = index
 
 
-def named_datasets(folder, is_one_of_many):
-    """The (name, dataset) of a folder's datasets: "" for one alone, else by folder and variant. ValueError for half ones."""
-    found = data.open_datasets(folder)
-    for dataset in found:
-        if dataset.complete is not True:
-            raise ValueError(f"{dataset.folder}: is not complete; run the render command that made it again")
-    return [("-".join([folder.resolve().name] * is_one_of_many + [one.folder.name] * (one.folder != folder)), one)
-            for one in found]
+def unused(name, taken):
+    """The name itself, or with the first number after it that is not taken."""
+    return next(one for one in (name, *(f"{name}-{k}" for k in range(2, len(taken) + 2))) if one not in taken)
+
+
+def named_datasets(folders):
+    """The datasets of folders by name: "" for one alone, else by folder and variant. ValueError for half and equal ones."""
+    named = {}
+    for folder in map(pathlib.Path, folders):
+        for one in data.open_datasets(folder):
+            if one.complete is not True:
+                raise ValueError(f"{one.folder}: is not complete; run the render command that made it again")
+            name = "-".join([folder.resolve().name] * (len(folders) > 1) + [one.folder.name] * (one.folder != folder))
+            named[unused(name, named)] = one
+    if len({one.folder.resolve() for one in named.values()}) < len(named):
+        raise ValueError("a dataset is given twice")
+    return named
 
 
 def require_known(given, known, option):
@@ -127,10 +130,16 @@ def require_known(given, known, option):
             raise ValueError(f"{option}: there is no {name!r}; there are: {', '.join(known)}")
 
 
+def fault_of(sensor, what):
+    return data.DataError(f"{sensor.folder}: sensor {sensor.name!r} {what}")
+
+
 def pictures_of(sensor, parts, options):
     """Yields the pictures of a sensor; none for a kind without pictures. `parts` has those of all poses."""
     part_of_ping = [parts[pose] for pose in sensor.pings]
     if sensor.picture("sensor") or sensor.picture("sweep"):
+        if options.image == "raw":
+            raise fault_of(sensor, "has no fans, whose values --image raw takes; choose others with --sensor")
         yield from records_of(sensor, part_of_ping)
     elif sensor.kind in ("imaging", "profiling"):
         yield from pings_of(sensor, part_of_ping, options.bins, options.image == "raw")
@@ -140,28 +149,26 @@ def pings_of(sensor, part_of_ping, is_bins, is_raw):
     wanted = ("raw",) if is_raw else ("image", "polar") if is_bins else ("fan",)
     names = [name for name in wanted if name in sensor.keys]
     if not names and is_raw:
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no raw; leave out --image, or set output.raw: "
-                             "true with the calibrated model and render it again")
+        raise fault_of(sensor, "has no raw; leave out --image, or render with output.raw: true and model: calibrated")
     if not names or not is_bins and "fan" not in sensor.keys:     # objects have masks in fans where there are fans
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
                   "pictures of its bins with --bins")
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
+        raise fault_of(sensor, f"has {advice}")
     if "objects" not in sensor.keys:
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
+        raise fault_of(sensor, f"has no objects; {ADVICE}")
     shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
-    bins = None
+    bins, kind = None, "bins" if is_bins else "fan"
     if not is_bins:
         width, height = (data.whole(sensor.description["fan"][key], 1, key) for key in ("width_px", "height_px"))
         if is_raw and width * height > MAX_FAN_PIXELS:
-            raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has too large a fan: {width} x {height} pixels")
+            raise fault_of(sensor, f"has too large a fan: {width} x {height} pixels")
         if is_raw:
             bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), width, -1)
         shape = width, height
     full_value = full_value_of(sensor) if is_raw else float(sensor.description["full_scale"])
     for k, part in enumerate(part_of_ping):
-        one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
-                      [part])
+        one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), kind, shape, [part])
         one.bins, one.full_scale = bins, full_value
         yield one
 
@@ -185,12 +192,11 @@ def pixel_m_of(picture, sensor, dataset):
     if picture.kind == "fan":
         return (sensor.fan_shape(picture.width)[2],) * 2
     if sensor.kind != "sidescan":
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has neither fans nor a waterfall to cut crops "
-                             "from; choose another with --sensor, and leave out --bins")
+        raise fault_of(sensor, "has neither fans nor a waterfall to cut crops from; choose others with --sensor, without --bins")
     ways = np.linalg.norm(np.diff(dataset.poses()[sensor.pings, 1:4], axis=0), axis=1)
     along = float(np.median(ways)) * sensor.picture("sensor").get("pings_per_pixel", 1) if ways.size else 0
     if not along > 0:
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} stands still, so that its rows have no scale")
+        raise fault_of(sensor, "stands still, so that its rows have no scale")
     return float(np.diff(sensor.range_edges_m).mean()), along
 
 

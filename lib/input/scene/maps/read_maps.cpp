@@ -87,7 +87,8 @@ MaterialTexels read_material_map(
                    colours ? "\"#c8b478\"" : "7");
         }
         const auto same = std::ranges::find(out.materials, material);
-        choices[*number] = static_cast<std::uint16_t>(same - out.materials.begin());
+        if (!choices.emplace(*number, same - out.materials.begin()).second)
+            refuse(where, "has the value {} twice in {}.materials", *number, sediment_section);
         if (same == out.materials.end()) out.materials.push_back(material);
     }
     const auto use = [&](const float* pixel, int row, int column) {

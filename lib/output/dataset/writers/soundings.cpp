@@ -107,10 +107,18 @@ void write_bathymetry(const WriterContext& context, const RecordFile& records,
     for_each_sounding(context, records, [&](const RecordedSounding& s) {
         good_for_map(s) ? bounds.add(s.position) : void(++left_out);
     });
-    GroundGrid grid = make_ground_grid(bounds, 0.0);
-    for_each_sounding(context, records, [&](const RecordedSounding& s) {
-        if (good_for_map(s)) grid.add(s.position);
-    });
+    const auto filled = [&](GroundGrid grid) {
+        for_each_sounding(context, records, [&](const RecordedSounding& s) {
+            if (good_for_map(s)) grid.add(s.position);
+        });
+        return grid;
+    };
+    GroundGrid grid = filled(make_ground_grid(bounds, 0.0));
+    while (bounds.count > 0) {
+        GroundGrid finer = make_ground_grid(bounds, cell_of_soundings(grid, bounds.count));
+        if (!(finer.cell_m < grid.cell_m)) break;
+        grid = filled(std::move(finer));
+    }
     write_map(context, folder, "bathymetry", grid, grid.mean(),
               {{"file", "bathymetry.tif"},
                {"values", "mean world z of the soundings in a cell, m; NaN where there are none"}},

@@ -111,15 +111,17 @@ void write_xtf(const WriterContext& context, const VisibilityEngine& engine, con
 /// The cell size: neighbouring pings and bins leave no cell between them empty.
 double mosaic_cell_m(const WriterContext& context) {
     const Trajectory& trajectory = context.assembly.trajectory;
-    double way_m = 0.0;
-    for (std::size_t k = 1; k < trajectory.size(); ++k) {
-        way_m += (trajectory[k].T_world_vehicle.translation -
-                  trajectory[k - 1].T_world_vehicle.translation)
-                     .norm();
+    const auto every = static_cast<std::size_t>(context.sonar().config.every);
+    std::vector<double> steps_m{0.0};
+    for (std::size_t k = every; k < trajectory.size(); k += every) {
+        steps_m.push_back((trajectory[k].T_world_vehicle.translation -
+                           trajectory[k - every].T_world_vehicle.translation)
+                              .norm());
     }
-    const std::size_t pings = count_pings(context.sonar().config, trajectory.size());
-    const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, pings));
-    return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
+    // The median: a trajectory may have gaps.
+    const auto middle = steps_m.begin() + std::ssize(steps_m) / 2;
+    std::ranges::nth_element(steps_m, middle);
+    return round_up_125(std::max(1.2 * *middle, context.sonar().settings.view.bin_m()));
 }
 
 void write_mosaic(const WriterContext& context, const VisibilityEngine& engine,

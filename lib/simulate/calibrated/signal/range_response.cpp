@@ -13,8 +13,8 @@ namespace {
 /// The half-power width for which line_array() designs a band: any small angle works.
 constexpr double unit_width = 1e-3;
 
-// Pulses are cut off at this many bins.
-constexpr double max_reach = 64.0;
+// Pulses are cut off at the greatest number of bins.
+constexpr double max_reach = 8192.0;
 
 /// The bins to either side of a pulse's middle that have its main lobe and two side lobes.
 int reach_of(double resolution_bins) {
