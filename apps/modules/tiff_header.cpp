@@ -144,8 +144,7 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     }
     head.has_grid = 1;
     const int system = geo_key(keys, projected_system);
-    constexpr std::array mercators{3395, 3785, 3857};  // of the world
-    if (std::ranges::find(mercators, system) != mercators.end()) {
+    if (system == 3395 || system == 3785 || system == 3857) {
         throw std::runtime_error(
             "the metres of its system, a Mercator map of the world, are longer than those of the "
             "ground; make a map in metres of it, as with gdalwarp -t_srs EPSG:32632");

@@ -57,6 +57,9 @@ class Variants(Sandbox):
         self.assertEqual(len({one["seed"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
+        self.assert_renders("--set", "sensors.fls.noise.add_sigma=0.5", "--out", "fixed")
+        self.assertEqual([{**one["drawn"], "sensors.fls.noise.add_sigma": 0} for one in self.variants("fixed")],
+                         [{**one["drawn"], "sensors.fls.noise.add_sigma": 0} for one in index])
         self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
             dataset = self.dataset(self.out / one["folder"])
@@ -135,6 +138,8 @@ class Variants(Sandbox):
         """With more shards than variants."""
         self.assert_renders(*TWO)
         self.assert_shards_agree(*TWO, count=3)
+        shutil.rmtree(self.out / "variant_0001")
+        self.assertRegex(self.succeeds("merge", "out", "half").stderr, " [1-9][0-9]* are missing")
         self.assert_renders(*TWO, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
         self.assert_refused(self.run_sonarsim("merge", "other", "merged"), "holds variants of another mission")
 

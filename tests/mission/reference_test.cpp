@@ -26,9 +26,8 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
             // The smallest mission has no optional sections and no keys of the calibrated model.
             if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
                 section.path == "scene.water_surface" || section.path == "scene.heightmap" ||
-                section.path == "scene.clutter" ||
-                section.path.starts_with("scene.seabed") || section.path.ends_with("_map") ||
-                section.path.ends_with("profile") ||
+                section.path == "scene.clutter" || section.path.starts_with("scene.seabed") ||
+                section.path.ends_with("_map") || section.path.ends_with("profile") ||
                 section.path.starts_with("sensors.NAME.instrument"))
                 continue;
             std::string path = section.path.empty() ? "" : section.path + ".";

@@ -1,5 +1,4 @@
 #include "simulate/product/fan.h"
-#include "support/draws.h"
 #include "support/sonars.h"
 
 namespace {
@@ -76,40 +75,4 @@ TEST_CASE("fan of ids: the box of a bin holds its pixels and no others around th
     CHECK(boxes.size() == 90 * 40);
     CHECK(fan.boxes == boxes);
     CHECK(joined(boxes.front(), {}) == boxes.front());  // a bin without pixels
-}
-
-TEST_CASE("fan: a pixel has the bin at its centre, a larger one the mean of as many as it covers") {
-    const Sonar sonar = fan_sonar(120.0);
-    Ping ping = even_ping(sonar, 0.0F);
-    Uniform random(6);
-    for (float& value : ping.intensity)
-        value = static_cast<float>(random.between(0.0, 1.0));
-    const std::vector<std::uint8_t> image = render_fan(make_fan_map(sonar), ping, 1.0);
-    const FanBins fan = make_fan_bins(sonar);
-    int different = 0;
-    for (std::size_t at = 0; at < image.size(); ++at) {
-        const std::int32_t bin = fan.by_row[at];
-        const auto row = static_cast<int>(at) / fan.frame.width;
-        if (bin < 0 || bin % 90 < 30 || bin % 90 > 87 || bin / 90 == 0 || bin / 90 == 39) continue;
-        const auto shown = static_cast<double>(ping.at(bin % 90, bin / 90));
-        different += image[at] != static_cast<int>(255.0 * std::sqrt(shown) + 0.5);
-        CHECK(row < fan.frame.height);
-    }
-    CHECK(different < 20);  // places within rounding of a border
-    for (const double extent : {0.1, 1.0, 1.4, 1.6, 2.0, 3.7, 20.0}) {
-        const KernelTable table = make_kernel(extent, 4);
-        CHECK(table.taps % 4 == 0);
-        for (int phase = 0; phase < KernelTable::phases; ++phase) {
-            const auto weights = std::span(table.weights).subspan(phase * table.taps, table.taps);
-            double centroid = table.first[phase];  // bins from the middle of the pixel's bin
-            double squares = 0.0;
-            for (int k = 0; k < table.taps; ++k) {
-                centroid += weights[k] * k;
-                squares += weights[k] * weights[k];
-            }
-            CHECK(std::accumulate(weights.begin(), weights.end(), 0.0F) == 1.0F);
-            CHECK(squares == approx(1.0 / std::max(1.0, std::round(extent))).epsilon(0.01));
-            CHECK(std::fabs(centroid - (phase + 0.5) / KernelTable::phases + 0.5) < 0.51);
-        }
-    }
 }

@@ -43,15 +43,8 @@ double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
     return edge / frame.pixel_m;
 }
 
-/// make_kernel(), once for each extent.
-const KernelTable& known_kernel(double extent, int multiple) {
-    static std::map<std::pair<double, int>, KernelTable> known;
-    const auto [at, is_new] = known.try_emplace({extent, multiple});
-    if (is_new) at->second = make_kernel(extent, multiple);
-    return at->second;
-}
-
-/// The grey value of a pixel, without a table: kernels in range and in azimuth at its centre.
+/// The grey value of a pixel, without a table: the mean of the bins nearest to its centre, as many
+/// as it covers.
 int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::size_t index) {
     const View& view = sonar.settings.view;
     const int column = static_cast<int>(index) % map.frame.width;
@@ -59,26 +52,22 @@ int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::si
     const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
     const double beams_per_pixel =
         map.frame.pixel_m * view.beams / view.azimuth_rad / place.range_m;
-    // The extent of a kernel grows in steps of an eighth from ring to ring.
+    // The extent grows in steps of an eighth from ring to ring.
     double extent = 1.0;
     while (extent < std::min({beams_per_pixel, 128.0, static_cast<double>(view.beams)}))
         extent *= 1.125;
-    const KernelTable& across = known_kernel(extent, 4);
-    const KernelTable& along = known_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
-    const KernelPlace bin = kernel_place((place.range_m - view.range_min_m) / view.bin_m());
-    const KernelPlace beam = kernel_place(ColumnFinder(sonar)(place.azimuth_rad));
+    const auto beams = static_cast<int>(std::lround(extent));
+    const auto bins = std::max(1, static_cast<int>(std::lround(map.frame.pixel_m / view.bin_m())));
+    const double bin = (place.range_m - view.range_min_m) / view.bin_m() - 0.5;
+    const double beam = ColumnFinder(sonar)(place.azimuth_rad) - 0.5;
     double mean = 0.0;
-    for (int k = 0; k < along.taps; ++k) {
-        for (int b = 0; b < across.taps; ++b) {
-            const int i = std::clamp(bin.bin + along.first[bin.phase] + k, 0, ping.range_bins - 1);
-            int j = beam.bin + across.first[beam.phase] + b;
-            const int turns = ping.beams * (1 + across.taps / ping.beams);
-            j = map.full_turn ? (j + turns) % ping.beams : std::clamp(j, 0, ping.beams - 1);
-            mean += static_cast<double>(along.weights[bin.phase * along.taps + k]) *
-                    across.weights[beam.phase * across.taps + b] * ping.at(i, j);
-        }
+    for (int k = 0; k < bins * beams; ++k) {
+        const int i = static_cast<int>(std::ceil(bin - 0.5 * bins)) + k / beams;
+        int j = static_cast<int>(std::ceil(beam - 0.5 * beams)) + k % beams;
+        if (map.full_turn) j = (j + 2 * ping.beams) % ping.beams;
+        mean += ping.at(std::clamp(i, 0, ping.range_bins - 1), std::clamp(j, 0, ping.beams - 1));
     }
-    return static_cast<int>(255.0 * std::sqrt(std::clamp(mean, 0.0, 1.0)) + 0.5);
+    return static_cast<int>(255.0 * std::sqrt(std::clamp(mean / bins / beams, 0.0, 1.0)) + 0.5);
 }
 
 }  // namespace
@@ -136,12 +125,12 @@ TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left
                 const double pixel_m = map.frame.pixel_m;
                 // Farther out are more pixels: by the bin's variance over the range.
                 const double off_m = 0.25 * pixel_m + (r1 - r0) * (r1 - r0) / (3.0 * r0);
-                const double off_rad = 0.25 * pixel_m / r0;
+                const double off_rad = 0.5 * pixel_m / r0;
                 CAPTURE_ALL(azimuth_deg, range_bin, beam);
                 CHECK(std::fabs(range / sum - 0.5 * (r0 + r1)) < off_m);
                 CHECK(std::fabs(beside / sum) < off_rad);
                 const double pixels = 0.5 * (a1 - a0) * (r1 * r1 - r0 * r0) / (pixel_m * pixel_m);
-                CHECK(sum == approx(pixels).epsilon(0.05 + 0.5 / pixels));
+                CHECK(sum == approx(pixels).epsilon(0.05 + 2.0 / pixels));
             }
         }
     }
@@ -195,10 +184,10 @@ TEST_CASE("fan: edges are anti-aliased") {
     CHECK(partial > 300);
 }
 
-TEST_CASE("fan: the table gives what direct resampling gives, on random sonars" *
+TEST_CASE("fan: a pixel is the bin at its centre, or the mean of those it covers" *
           doctest::skip(sanitized)) {
-    // A table that is off by a bin or a phase changes most pixels of noise. Rounding to floats
-    // changes those whose value or place lies next to a border.
+    // A table that is off by a bin changes most pixels of noise. Rounding changes those whose place
+    // lies on a border, as on the diagonals of a full turn.
     std::mt19937 random(23);
     const auto uniform = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random() >> 8) * 0x1p-24;
@@ -216,18 +205,14 @@ TEST_CASE("fan: the table gives what direct resampling gives, on random sonars" 
         for (float& value : ping.intensity)
             value = static_cast<float>(uniform(0.0, 1.2));
         const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
-        std::size_t off_by_one = 0;
-        std::size_t off_by_more = 0;
+        std::size_t different = 0;
         for (std::size_t i = 0; i < image.size(); ++i) {
             if (depth(sonar, map.frame, i) < 1.5) continue;  // an edge is near
             const int expected = direct_grey(sonar, map, ping, i);
-            off_by_one += image[i] != expected;
-            off_by_more += std::abs(image[i] - expected) > 1;
+            different += std::abs(image[i] - expected) > 1;
         }
         CAPTURE(scene);
-        const auto line = static_cast<std::size_t>(map.frame.width);
-        CHECK(off_by_more <= line);
-        CHECK(off_by_one <= line + image.size() / 2000);
+        CHECK(different <= 3 * static_cast<std::size_t>(map.frame.width));
     }
 }
 

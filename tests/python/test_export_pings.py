@@ -194,6 +194,7 @@ class Pings(tool.ToolTest):
                             (("holoocean", "--sensor", "fls", "--mesh", tool.ROOT / "README.md"),
                              "is not the file of the scene or its heightmap")):
             self.assert_refused("export", text, self.rendered, self.folder / "dest", "--format", *words)
+        self.assert_refused("export", "is given twice", self.rendered, self.rendered, self.folder / "dest", "--format", "mcap")
         shutil.copytree(self.rendered, self.folder / "less")
         with tool.edited(self.folder / "less/dataset.json") as description:
             for one in description["sensors"]:
