@@ -55,8 +55,7 @@ def ropes():
             for i in range(steps + 1):
                 u = -0.8 + 1.6 * (k + i / steps) / 10
                 x, y, z = hull_point(u, 0.95, side)
-                sag = 0.18 * (1 - (2 * i / steps - 1) ** 2)
-                points.append((x, y + 0.02 * side, z - sag))
+                points.append((x, y + 0.02 * side, z - 0.18 * (1 - (2 * i / steps - 1) ** 2)))
             add_line(part, points, 0.006, 4)
     bow, stern = hull_point(0.97, 1.0, 1), hull_point(-0.97, 1.0, 1)
     add_cylinder(part, (bow[0], 0.0, bow[2]), (0.4, 0.0, 3.1), 0.005, 4)

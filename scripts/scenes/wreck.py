@@ -49,8 +49,7 @@ def build():
     relief = Relief(18.0, 0.2, 4, 11)
 
     def height(x, y):
-        bend = 0.8 * math.sin(0.2 * x)
-        return relief(x, y) + 0.05 * math.sin(2 * math.pi * (y + bend) / 0.9)
+        return relief(x, y) + 0.05 * math.sin(2 * math.pi * (y + 0.8 * math.sin(0.2 * x)) / 0.9)
     axis = [2 * HALF * k / 260 - HALF for k in range(261)]
     return ([made("floor", "sand", (add_grid, axis, axis, height)), plating(), ribs(),
              made("keel", "steel", (add_cylinder, hull_point(-0.98, 0, 1), hull_point(0.98, 0, 1), 0.15, 12)),

@@ -14,7 +14,8 @@ double width_of_bin_m(const SonarConfig& config) {
 
 /// False in the columns before the first bin.
 bool is_recorded(const Sonar& sonar, const SwathRow& row, double ground_m) {
-    return std::hypot(ground_m, row.swath.distance_m) >= sonar.config.range_min_m;
+    const double slant2 = ground_m * ground_m + row.swath.distance_m * row.swath.distance_m;
+    return slant2 >= sonar.config.range_min_m * sonar.config.range_min_m;
 }
 
 /// The echo at a ground range, 0 beyond the row. `side`: 1 is port, -1 starboard.

@@ -82,8 +82,7 @@ def taps_of(bins, side_lobe_db, kind):
         lags = np.minimum(np.arange(2048), 2048 - np.arange(2048))
         spectrum = np.fft.fft(pulse_at(lags / max(bins, 0.1), side_lobe_db)).real
         taps = np.roll(np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real, reach)[:2 * reach + 1]
-        left_out = 2.0 * np.cumsum(taps[:reach] ** 2)
-        cut = int((left_out <= 1e-3 * (taps @ taps)).sum())
+        cut = int((2.0 * np.cumsum(taps[:reach] ** 2) <= 1e-3 * (taps @ taps)).sum())
         return taps[cut:len(taps) - cut]
     # The linear spline that is nearest to the pulse.
     x, m = np.arange(-63, 64) / 64.0, np.arange(-reach, reach + 1)

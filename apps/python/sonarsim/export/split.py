@@ -27,8 +27,7 @@ def stretches(shares, count, gap, rounds):
         total = 0.0
         for part in shares:
             total += shares[part]
-            last = part == list(shares)[-1]
-            end = math.floor(first + length * (1.0 if last else total) + 0.5)
+            end = math.floor(first + length * (1.0 if part == list(shares)[-1] else total) + 0.5)
             parts[begin:end] = [part] * (end - begin)
             if len(shares) > 1 and end < count:
                 borders.append(end)
