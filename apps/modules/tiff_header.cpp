@@ -125,6 +125,13 @@ double metres_of_unit(const Values<std::uint16_t>& keys) {
     }
 }
 
+/// True by VerticalUnitsGeoKey, or by the VerticalGeoKey of NAVD88 or NGVD29 in feet.
+bool has_heights_in_feet(const Values<std::uint16_t>& keys) {
+    const int unit = geo_key(keys, 4099);
+    const int system = geo_key(keys, 4096);
+    return unit == 9002 || unit == 9003 || system == 5702 || system == 6360 || system == 8228;
+}
+
 void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     constexpr int model_type = 1024;   // GTModelTypeGeoKey
     constexpr int geographic = 2;      // longitudes and latitudes
@@ -152,6 +159,7 @@ void read_grid(TIFF* tiff, SonarsimImageHead& head) {
     const bool in_degrees = geo_key(keys, model_type) == geographic;
     const double unit_m = in_degrees ? 1.0 : metres_of_unit(keys);
     const bool has_unit = geo_key(keys, linear_units) != 0 || system == 0 || is_metric(system);
+    head.heights_in_feet = has_heights_in_feet(keys) ? 1 : 0;
     head.unit = in_degrees ? 1 : has_unit ? 0 : 2;
     // Products have metres, which a system in feet would misplace.
     if (system != user_defined && unit_m == 1.0) head.epsg = static_cast<std::uint32_t>(system);

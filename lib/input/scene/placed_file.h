@@ -22,6 +22,7 @@ struct HeightmapRule {
     double pixel_m = 0.0;
     /// The longest side of the surface's cells, cubic between pixels. 0: those of the pixels.
     double cell_m = 0.0;
+    bool is_scaled = false;  ///< the mission has a factor on the heights
     /// The part that is read, on the map: least x and y, largest x and y. Outside the map: all.
     std::array<double, 4> window{-unlimited, -unlimited, unlimited, unlimited};
 

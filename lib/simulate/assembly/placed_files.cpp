@@ -48,7 +48,8 @@ PlacedFile file_of(const HeightmapConfig& map) {
                     .material = map.material,
                     .class_name = map.class_name,
                     .place = map.place};
-    file.heightmap = HeightmapRule{.pixel_m = map.pixel_m, .cell_m = map.cell_m};
+    file.heightmap = HeightmapRule{
+        .pixel_m = map.pixel_m, .cell_m = map.cell_m, .is_scaled = map.height_scale != 1.0};
     file.T_world_file.linear() = Eigen::Vector3d(1.0, 1.0, map.height_scale).asDiagonal();
     file.T_world_file.translation() =
         Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);

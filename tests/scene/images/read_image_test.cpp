@@ -126,6 +126,7 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     };
     CHECK(unit_of("EPSG:2263") == Image::Unit::unnamed);
     CHECK(unit_of("EPSG:32632") == Image::Unit::metre);
+    CHECK(read_image(map.translated("-a_srs EPSG:26915+6360")).heights_in_feet);
     check_refused(map.translated("-a_srs EPSG:3857"), "a Mercator map of the world");
     const auto degrees = read_image(map.translated("-a_srs EPSG:4326"));
     CHECK(degrees.unit == Image::Unit::degree);

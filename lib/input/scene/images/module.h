@@ -19,6 +19,7 @@ struct SonarsimImageHead {
     std::uint32_t has_grid;
     std::uint32_t unit;  ///< 0: `grid` is in metres, 1: degrees, 2: the file does not say
     std::uint32_t epsg;  ///< code of the projected reference system; 0: none
+    std::uint32_t heights_in_feet;  ///< 1: the file says so
     double grid[4];
     char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none
 };

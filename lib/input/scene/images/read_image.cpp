@@ -120,6 +120,7 @@ void set_reference(const SonarsimImageHead& head, const std::filesystem::path& p
                      ? read_world_file(path)
                      : PixelGrid{head.grid[0], head.grid[1], head.grid[2], head.grid[3]};
     image.unit = static_cast<Image::Unit>(head.unit);
+    image.heights_in_feet = head.heights_in_feet != 0;
     if (!image.grid) return;
     const auto& [x_m, y_m, column_m, row_m] = *image.grid;
     if (std::isfinite(x_m + y_m + column_m + row_m) && column_m != 0.0 && row_m != 0.0) return;

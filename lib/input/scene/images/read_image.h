@@ -38,6 +38,7 @@ struct Image {
     std::vector<float> values;
     std::optional<PixelGrid> grid;  ///< the place on its map, as the file has it
     enum class Unit { metre, degree, unnamed } unit = Unit::metre;  ///< for `grid`
+    bool heights_in_feet = false;                                   ///< the file says so
     bool has_no_data = false;  ///< the file names the value of pixels without one
 
     /// The channels without that of transparency.
