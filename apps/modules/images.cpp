@@ -132,7 +132,7 @@ void read_pixels(ImageInput& input, const ImageSpec& spec, float* values) {
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_4(const char* format,
+extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_5(const char* format,
                                                                     const char* file,
                                                                     SonarsimImageStart start,
                                                                     void* user, char* error,

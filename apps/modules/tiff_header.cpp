@@ -125,11 +125,12 @@ double metres_of_unit(const Values<std::uint16_t>& keys) {
     }
 }
 
-/// True by VerticalUnitsGeoKey, or by the VerticalGeoKey of NAVD88 or NGVD29 in feet.
+/// True by VerticalUnitsGeoKey, or by the VerticalGeoKey of MSL, NAVD88 or NGVD29 in feet.
 bool has_heights_in_feet(const Values<std::uint16_t>& keys) {
     const int unit = geo_key(keys, 4099);
     const int system = geo_key(keys, 4096);
-    return unit == 9002 || unit == 9003 || system == 5702 || system == 6360 || system == 8228;
+    constexpr int in_feet[] = {5702, 6358, 6359, 6360, 8050, 8051, 8052, 8053, 8228};
+    return unit == 9002 || unit == 9003 || std::ranges::find(in_feet, system) != std::end(in_feet);
 }
 
 void read_grid(TIFF* tiff, SonarsimImageHead& head) {

@@ -58,8 +58,9 @@ class Variants(Sandbox):
         self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
         self.assert_renders("--set", "sensors.fls.noise.add_sigma=0.5", "--out", "fixed")
-        self.assertEqual([{**one["drawn"], "sensors.fls.noise.add_sigma": 0} for one in self.variants("fixed")],
-                         [{**one["drawn"], "sensors.fls.noise.add_sigma": 0} for one in index])
+        for one in index:
+            del one["drawn"]["sensors.fls.noise.add_sigma"]
+        self.assertEqual([one["drawn"] for one in self.variants("fixed")], [one["drawn"] for one in index])
         self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
             dataset = self.dataset(self.out / one["folder"])

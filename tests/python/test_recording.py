@@ -242,7 +242,7 @@ class RecordingTest(tool.ToolTest):
                 (ARRAYS.replace("imaging", "photo"), "one of imaging, sidescan"), (ARRAYS + "xtf: a\n", "files and xtf"),
                 (ARRAYS.replace("0.5}", "5}"), "'exponent' must be a number from 0.1 to 2"),
                 (ARRAYS.replace("1490", ".nan"), "'sound_speed_m_s' must be"), (ARRAYS.replace("law", "# law"), "'law'"),
-                (ARRAYS + "bearing_first_deg: 10\nbearing_last_deg: 10\n", "the same bearing_first_deg and bearing_last_deg"),
+                (ARRAYS + "bearing_first_deg: 10\nbearing_last_deg: 10\n", "the same bearing for all beams"),
                 (ARRAYS.replace("0.5}", "0.5, full_value: 0}"), "'full_value' must be a number from 1e-30"),
                 (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"), (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
                 (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is not YAML"),

@@ -97,6 +97,7 @@ TEST_CASE("water's surface: what hides it, and a sonar above it") {
 
 TEST_CASE("water surface: a wall ends there, for every engine and for the reference") {
     Scene scene = rectangle_scene({5, -1, -2}, {5, 1, 2}, 0.5F);
+    scene.bounds_max = {5, 1, 2};
     SonarConfig config = small_imaging();
     config.elevation_deg = 80.0;
     const Sonar sonar = noise_free(config);

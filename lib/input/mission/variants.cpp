@@ -15,22 +15,21 @@ namespace {
 constexpr std::uint32_t all_variants = 0xFFFFFFFFU;
 constexpr std::uint32_t no_sensor = 0xFFFFFFFFU;
 
-/// True if a setting of the command line fixes the key of a rule.
+/// True if a setting of the command line fixes the key of a rule, or a section around it.
 bool is_fixed(const VaryConfig& rule, const MissionSource& source) {
     return std::ranges::any_of(source.overrides, [&](const std::string& setting) {
-        return setting.starts_with(rule.key + "=");
+        const std::string key = setting.substr(0, setting.find('='));
+        return rule.key == key || rule.key.starts_with(key + ".");
     });
 }
 
 /// Keeps only the rules that are drawn for every ping.
-void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules,
-                         const MissionSource& source) {
+void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     YamlNode* list = root.find("vary");
     if (list == nullptr) return;
     std::vector<YamlNode> kept;
     for (std::size_t k = 0; k < rules.size(); ++k) {
-        if (rules[k].per == VaryPer::ping && !is_fixed(rules[k], source))
-            kept.push_back(list->items[k]);
+        if (rules[k].per == VaryPer::ping) kept.push_back(list->items[k]);
     }
     list->items = std::move(kept);
     if (list->items.empty()) erase_key(root, "vary");
@@ -69,7 +68,7 @@ Variants::Variants(const Mission& mission, const MissionSource& source, SonarKey
     : mission_(mission), source_(source), sonars_(sonars), whole_(read_mission_document(source)) {
     fill_in_rules(whole_, source.base_folder);
     erase_key(whole_, "variants");
-    keep_rules_of_pings(whole_, mission.vary, source);
+    keep_rules_of_pings(whole_, mission.vary);
     const std::vector<VaryConfig>& rules = mission_.vary;
     for (std::size_t k = 0; k < rules.size(); ++k)
         if (rules[k].per != VaryPer::ping && !is_fixed(rules[k], source)) order_.push_back(k);
@@ -95,6 +94,7 @@ DrawnValues Variants::drawn(int index) const {
 std::vector<Mission> Variants::extremes() const {
     std::vector<Mission> extremes;
     for (std::size_t k = 0; k < mission_.vary.size(); ++k) {
+        if (is_fixed(mission_.vary[k], source_)) continue;
         for (const std::string& value : choices_of_objects(mission_.vary[k])) {
             std::vector<std::string> values = draw_values(0);
             values[k] = value;

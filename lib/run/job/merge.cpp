@@ -152,6 +152,7 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
     claim_variants(out, json);
     const std::vector<fs::path> names = folders_of_variants("", json);
     std::uint64_t absent = 0;
+    std::uint64_t visited = 0;
     for (std::size_t i = 0; i < names.size() && !summary.stopped; ++i) {
         std::vector<fs::path> sources;
         for (const fs::path& part : parts) {
@@ -160,7 +161,11 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
         }
         const fs::path target = out / names[i];
         if (!sources.empty()) DatasetMerge(sources, target).run(stop, summary);
-        if (sources.empty() && !is_complete(target)) ++absent;
+        ++visited;
+        if (sources.empty() && is_complete(target))
+            summary.skipped += count_pings(require_dataset(target));
+        else if (sources.empty())
+            ++absent;
         if (stop) summary.stopped = true;
         if (progress) progress(i + 1, names.size());
     }
@@ -168,7 +173,8 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
     summary.complete = false;
     // As many pings as the others have on average.
     const std::uint64_t known = summary.pings + summary.skipped + summary.missing;
-    summary.missing += absent * known / std::max<std::uint64_t>(names.size() - absent, 1);
+    summary.missing +=
+        std::max(absent, absent * known / std::max<std::uint64_t>(visited - absent, 1));
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-
 #include <variant>
 
 #include "core/error.h"

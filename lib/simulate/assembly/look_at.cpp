@@ -1,4 +1,3 @@
-
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/random.h"

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
 
@@ -156,17 +159,27 @@ LineParts parts_by_surfaces(SightLine line, std::span<const Intersection> surfac
 }  // namespace
 
 HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
-                                  const View& view, const SceneObjects& objects,
-                                  const VisibilityEngine& engine,
+                                  const TraceContext& context, const SceneObjects& objects,
                                   const ObjectDirections& directions, HiddenSurface::By by) {
+    const View& view = context.view;
     const LineWidth width{echoes.cones, view.guards.joined, view};
     LineTracer tracer(width, objects, directions, by);
+    const std::optional<WaterMirror> water =
+        mirror_of(context.scene.water_surface, context.T_world_sensor);
     const auto pass = [&](std::span<const SightLine> lines, const UseSurfaces& use) {
         std::vector<Ray> rays;
         for (const SightLine& line : lines)
             rays.push_back(ray_behind(line, traced.motion, view.shape));
-        engine.pass_surfaces(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
-                             use);
+        // Sound from below does not arrive above the water's surface.
+        const auto use_below = [&](std::size_t k, std::span<const Intersection> met) {
+            const float end_m =
+                water ? water->distance(rays[k]) : std::numeric_limits<float>::infinity();
+            const auto end = std::ranges::find_if(
+                met, [&](const Intersection& one) { return one.distance_m > end_m; });
+            use(k, met.first(static_cast<std::size_t>(end - met.begin())));
+        };
+        context.engine.pass_surfaces(context.T_world_sensor, rays,
+                                     static_cast<float>(view.range_max_m), use_below);
     };
     std::vector<SightLine> whole = sight_lines(
         traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });

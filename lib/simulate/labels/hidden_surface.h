@@ -10,6 +10,7 @@
 #include "simulate/ping/sonar.h"
 #include "simulate/trace/range_boxes.h"
 #include "simulate/trace/surface_echoes.h"
+#include "simulate/trace/trace_context.h"
 #include "simulate/trace/traced_ping.h"
 
 namespace sonarsim {
@@ -38,8 +39,7 @@ struct HiddenSurface {
 /// only surface that objects hide, as far as the first background behind them, and hidden surface
 /// of these objects, which lie in `directions`; small objects cost little. `echoes`: of the trace.
 HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
-                                  const View& view, const SceneObjects& objects,
-                                  const VisibilityEngine& engine,
+                                  const TraceContext& context, const SceneObjects& objects,
                                   const ObjectDirections& directions, HiddenSurface::By by);
 
 /// Drops the far sides of bodies, but not those among other hidden surface of their beam.

@@ -187,9 +187,9 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
         is_bent ? ObjectDirections()
                 : ObjectDirections(request.annotated, request.surface, traced.T_world_sensor,
                                    view.range_min_m, view.range_max_m);
-    HiddenSurface hidden =
-        find_hidden_surface(traced, echoes, view, objects, engine, directions,
-                            request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
+    HiddenSurface hidden = find_hidden_surface(
+        traced, echoes, {view, scene, engine, traced.T_world_sensor}, objects, directions,
+        request.shadow ? HiddenSurface::By::all : HiddenSurface::By::objects);
     std::vector<HiddenPiece> by_objects;
     if (request.annotations) by_objects = hidden.pieces;
     std::erase_if(by_objects, [&](const HiddenPiece& piece) {

@@ -1,4 +1,3 @@
-
 #include "simulate/labels/hidden_surface.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"
@@ -21,7 +20,7 @@ constexpr float bins_of_part = 4.0F;
 constexpr double share_rad = 0.005;
 constexpr double share_by_view = 0.25;
 
-/// The k-th of numbers that fill (0, 1) evenly, as many as there are of them.
+/// The k-th number of a sequence that fills (0, 1) evenly at every length.
 float scattered(std::size_t k) {
     constexpr double golden = 0.6180339887498949;
     const double at = 0.5 + static_cast<double>(k) * golden;
@@ -156,9 +155,11 @@ void divide(const SightLine& line, const LineParts& parts, const LineWidth& widt
     const float share_u = 1.0F / static_cast<float>(parts.u);
     const float share_v = 1.0F / static_cast<float>(parts.v);
     const Eigen::Vector3f middle = middle_of(sample, parts.u);
+    const std::size_t first = out.size();
     for (int i = 0; i < parts.u; ++i) {
         for (int j = 0; j < parts.v; ++j) {
-            const float aside_u = parts.are_scattered ? scattered(out.size()) : 0.5F;
+            const auto number = first + static_cast<std::size_t>(i * parts.v + j);
+            const float aside_u = parts.are_scattered ? scattered(number) : 0.5F;
             const float aside_v = parts.are_scattered ? scattered(line.beam + 7U * i) : 0.5F;
             const float u = 2.0F * (static_cast<float>(i) + aside_u) * share_u - 1.0F;
             const float v = 2.0F * (static_cast<float>(j) + aside_v) * share_v - 1.0F;

@@ -162,10 +162,13 @@ GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m) {
     return grid;
 }
 
+std::int64_t filled_cells(const GroundGrid& grid) {
+    return std::ranges::count_if(grid.weight, [](double weight) { return weight > 0.0; });
+}
+
 double cell_of_soundings(const GroundGrid& grid, std::uint64_t count) {
-    const auto cells = std::ranges::count_if(grid.weight, [](double weight) { return weight > 0; });
     const double wanted =
-        soundings_per_cell * static_cast<double>(cells) / static_cast<double>(count);
+        soundings_per_cell * static_cast<double>(filled_cells(grid)) / static_cast<double>(count);
     return std::max(round_up_125(grid.cell_m * std::sqrt(wanted)), finest_cell_m);
 }
 

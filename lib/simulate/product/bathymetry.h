@@ -46,6 +46,9 @@ struct GroundGrid {
 /// are larger than the key says if the grid would exceed 2^24 cells.
 GroundGrid make_ground_grid(const GroundBounds& bounds, double cell_m);
 
+/// The number of cells that have soundings.
+std::int64_t filled_cells(const GroundGrid& grid);
+
 /// The size by which those cells of a grid that have soundings, `count` in all, hold four each. The
 /// box of the soundings may hold much ground without any.
 double cell_of_soundings(const GroundGrid& grid, std::uint64_t count);

@@ -7,18 +7,6 @@ namespace sonarsim {
 
 namespace {
 
-/// Rounds weights to multiples of 1/256 that still add up to 1, by rounding the cumulative sums.
-void round_weights(std::span<const double> exact, float* rounded) {
-    double sum = 0.0;
-    double before = 0.0;
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-        sum += exact[k];
-        const double now = std::round(256.0 * sum);
-        rounded[k] = static_cast<float>((now - before) / 256.0);
-        before = now;
-    }
-}
-
 /// Bins in range or in azimuth that a pixel averages; only pixels next to the apex cover more.
 constexpr double max_bins = 128.0;
 
@@ -78,6 +66,11 @@ double bins_to(const View& view, const FanPlace& place) {
     return (place.range_m - view.range_min_m) / view.bin_m();
 }
 
+/// The number of bins that a pixel `extent` bins wide has the mean of.
+int bins_of(double extent) {
+    return std::max(1, static_cast<int>(std::lround(extent)));
+}
+
 /// The ring of pixels that are `extent` beams wide; ring 0 holds those of up to one beam.
 std::size_t ring_of(double extent) {
     std::size_t ring = 0;
@@ -89,24 +82,19 @@ std::size_t ring_of(double extent) {
     return ring;
 }
 
-/// A pixel of a ring, from the places of its centre in range and in azimuth.
-FanMap::Pixel pixel_at(const FanMap& map, const FanMap::Ring& ring, int beams,
-                       const KernelPlace& range, const KernelPlace& beam) {
-    static_assert(KernelTable::phases <= 256);
-    const int row = range.bin + map.range_kernel.first[range.phase] + map.range_padding;
-    const int column = beam.bin + ring.beam_kernel.first[beam.phase] + map.beam_padding;
-    return {.first_bin = row * (beams + 2 * map.beam_padding) + column,
-            .range_phase = static_cast<std::uint8_t>(range.phase),
-            .beam_phase = static_cast<std::uint8_t>(beam.phase)};
+/// The first of the `count` bins nearest to a place, in bins from the lower edge of bin 0.
+int first_of_nearest(double place, int count) {
+    // Of one bin that is the bin of the place.
+    return static_cast<int>(std::floor(place - 0.5 * (count - 1)));
 }
 
 /// Adds a pixel to a ring. Pixels are added in the order of the picture.
-void add_pixel(FanMap::Ring& ring, const FanMap::Pixel& pixel, int index, int covered) {
+void add_pixel(FanMap::Ring& ring, std::int32_t first_bin, int index, int covered) {
     if (covered < cover_points) {
         ring.edges.push_back({static_cast<std::uint32_t>(ring.pixels.size()),
                               static_cast<float>(covered) / cover_points});
     }
-    ring.pixels.push_back(pixel);
+    ring.pixels.push_back(first_bin);
     const bool goes_on =
         !ring.runs.empty() && ring.runs.back().index + ring.runs.back().count == index;
     goes_on ? void(++ring.runs.back().count) : ring.runs.push_back({index, 1});
@@ -122,27 +110,6 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
 }
 
 }  // namespace
-
-KernelTable make_kernel(double extent, int unit) {
-    const auto bins = std::max(1, static_cast<int>(std::lround(extent)));
-    const std::vector<double> equal(bins, 1.0 / bins);
-    KernelTable table;
-    table.taps = (bins + unit - 1) / unit * unit;
-    table.weights.assign(static_cast<std::size_t>(KernelTable::phases) * table.taps, 0.0F);
-    for (int phase = 0; phase < KernelTable::phases; ++phase) {
-        // The centres of bins are at whole numbers here; the pixel's bin is 0.
-        const double centre = (phase + 0.5) / KernelTable::phases - 0.5;
-        table.first[phase] = static_cast<int>(std::ceil(centre - 0.5 * bins));
-        round_weights(equal, table.weights.data() + static_cast<std::size_t>(phase) * table.taps);
-    }
-    return table;
-}
-
-KernelPlace kernel_place(double coordinate) {
-    const double bin = std::floor(coordinate);
-    const int phase = static_cast<int>((coordinate - bin) * KernelTable::phases);
-    return {static_cast<int>(bin), std::min(phase, KernelTable::phases - 1)};
-}
 
 FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row) {
     const double x = range_max_m - (row + 0.5) * frame.pixel_m;
@@ -177,8 +144,8 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
     FanMap map;
     map.frame = fan_frame(sonar, width_px);
     map.full_turn = view.azimuth_rad >= 2.0 * pi;
-    map.range_kernel = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), max_bins), 1);
-    map.range_padding = map.range_kernel.taps / 2 + 1;
+    map.range_bins = bins_of(std::min(map.frame.pixel_m / view.bin_m(), max_bins));
+    map.range_padding = map.range_bins / 2 + 1;
     const double beams_per_rad = view.beams / view.azimuth_rad;
     const auto beams_across = [&](double range_m) {
         return std::min({map.frame.pixel_m * beams_per_rad / range_m, max_bins,
@@ -188,8 +155,9 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
     const double nearest_m = std::max(view.range_min_m - map.frame.pixel_m, 0.0);
     double extent = 1.0;
     for (std::size_t k = 0; k <= ring_of(beams_across(nearest_m)); ++k, extent *= ring_step)
-        map.rings.push_back({make_kernel(extent, 4), {}, {}, {}});
-    map.beam_padding = map.rings.back().beam_kernel.taps;
+        map.rings.push_back({bins_of(extent), {}, {}, {}});
+    map.beam_padding = map.rings.back().beams / 2 + 1;
+    const int width = view.beams + 2 * map.beam_padding;
     for (int row = 0; row < map.frame.height; ++row) {
         const int first = first_column(view, map.frame, row);
         int column = first - 1;
@@ -200,14 +168,14 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
                                     : (is_inside_sector(view, place) ? cover_points : 0);
             if (covered == 0) continue;
             // The centre of a pixel on the edge may lie outside the sector.
-            const double bins = bins_to(view, place);
-            const double beams = column_at(place.azimuth_rad);
+            const double bins = std::clamp(bins_to(view, place), 0.0, view.range_bins - 1e-6);
+            const double beams =
+                std::clamp(double{column_at(place.azimuth_rad)}, 0.0, view.beams - 1e-6);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
-            add_pixel(ring,
-                      pixel_at(map, ring, view.beams,
-                               kernel_place(std::clamp(bins, 0.0, view.range_bins - 1e-6)),
-                               kernel_place(std::clamp(beams, 0.0, view.beams - 1e-6))),
-                      row * map.frame.width + column, covered);
+            const int first_row = first_of_nearest(bins, map.range_bins) + map.range_padding;
+            const int first_beam = first_of_nearest(beams, ring.beams) + map.beam_padding;
+            add_pixel(ring, first_row * width + first_beam, row * map.frame.width + column,
+                      covered);
         }
     }
     return map;

@@ -17,34 +17,6 @@
 
 namespace sonarsim {
 
-// Displays show the bin at the centre of a pixel, so that fans of real sonars have steps at the
-// borders of beams and the whole contrast of the grain. Where a pixel covers n bins or more it has
-// the mean of the n bins that are nearest. Bilinear weights would halve the variance of noise
-// between two bins and keep it at their middles.
-
-/// The weights of successive bins for pixels centred at `phases` places within a bin. They are
-/// multiples of 1/256 and add up to exactly 1, so that uniform surface stays uniform.
-struct KernelTable {
-    static constexpr int phases = 64;
-
-    int taps = 0;                   ///< number of weights, a multiple of `unit`
-    std::vector<float> weights;     ///< [phases, taps]; padded with 0
-    std::array<int, phases> first;  ///< the bin of the first tap, counted from the pixel's bin
-};
-
-/// Makes the kernel for pixels that are `extent` bins wide: equal weights of as many bins as that,
-/// rounded, at least one. `taps` is rounded up to a multiple of `unit`.
-KernelTable make_kernel(double extent, int unit);
-
-/// The place of a pixel's centre: its bin and the phase within the bin.
-struct KernelPlace {
-    int bin;
-    int phase;
-};
-
-/// The place at `coordinate` bins from the lower edge of bin 0, to a 64th of a bin.
-KernelPlace kernel_place(double coordinate);
-
 /// The frame of a sonar's fan: boresight up, port on the left, the apex in the middle column and
 /// `range_max / pixel_m` pixels below the upper edge, the lower edge up to a sector of 180 degrees.
 struct FanFrame {
@@ -65,16 +37,12 @@ struct FanPlace {
 FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row);
 bool is_inside_sector(const View& view, const FanPlace& place);
 
-/// The mapping from a sonar's bins to the pixels of its fan, made once per sonar, by KernelTable in
-/// range and in azimuth. The area outside the sector is black, and edges are smooth: 64 points
-/// sample the share of a pixel inside.
+/// The mapping from a sonar's bins to the pixels of its fan, made once per sonar. A pixel has the
+/// bin at its centre, as on the displays of sonars, so that beams have steps at their borders and
+/// the grain its whole contrast. A pixel that covers several bins in range or in azimuth has the
+/// mean of as many, rounded, that are nearest. The area outside the sector is black, and edges are
+/// smooth: 64 points sample the share of a pixel inside.
 struct FanMap {
-    /// It is small, since every ping reads all pixels through the caches.
-    struct Pixel {
-        std::int32_t first_bin;    ///< index of the first taps in the padded image
-        std::uint8_t range_phase;  ///< phase in the range kernel
-        std::uint8_t beam_phase;   ///< phase in the beam kernel
-    };
     /// A pixel of which a part lies outside the sector.
     struct Edge {
         std::uint32_t pixel;  ///< index among the pixels of its ring
@@ -84,18 +52,18 @@ struct FanMap {
         std::int32_t index;  ///< first pixel in the picture, row by row
         std::int32_t count;
     };
-    /// Pixels that share a beam kernel. Near the apex a pixel covers more beams.
+    /// Pixels that have the mean of equally many beams. Near the apex a pixel covers more beams.
     struct Ring {
-        KernelTable beam_kernel;
-        std::vector<Pixel> pixels;
-        std::vector<Edge> edges;  ///< in the order of the pixels
-        std::vector<Run> runs;    ///< places of the pixels in the picture, in order
+        int beams = 1;
+        std::vector<std::int32_t> pixels;  ///< the first bin of each in the padded image
+        std::vector<Edge> edges;           ///< in the order of the pixels
+        std::vector<Run> runs;             ///< places of the pixels in the picture, in order
     };
 
     FanFrame frame;
-    KernelTable range_kernel;
+    int range_bins = 1;  ///< of each pixel
     std::vector<Ring> rings;
-    int range_padding = 0;   ///< rows before the first and after the last bin, so that kernels
+    int range_padding = 0;   ///< rows before the first and after the last bin, so that pixels
     int beam_padding = 0;    ///< at the edges need no special case; the same for columns
     bool full_turn = false;  ///< the last beam is next to the first
 };

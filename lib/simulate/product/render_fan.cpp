@@ -1,5 +1,3 @@
-#include <immintrin.h>
-
 #include <cmath>
 #include <limits>
 
@@ -27,7 +25,7 @@ PaddedImage padded(const FanMap& map, const Ping& ping) {
         const int bin = std::clamp(i - map.range_padding, 0, ping.range_bins - 1);
         const float* const from = ping.intensity.data() + static_cast<std::size_t>(bin) * beams;
         float* const to = out.values.get() + static_cast<std::size_t>(i) * width + map.beam_padding;
-        // Infinity times a weight of 0 would be NaN.
+        // Infinity times a share of 0 inside would be NaN.
         for (int j = 0; j < beams; ++j)
             to[j] = std::min(from[j], std::numeric_limits<float>::max());
         for (int j = 0; j < map.beam_padding; ++j) {
@@ -63,84 +61,39 @@ class RunWriter {
     std::vector<std::uint8_t>& picture_;
 };
 
-/// The sums of the lanes of four vectors, each as (0 + 2) + (1 + 3).
-__m128 lane_sums(__m128 a, __m128 b, __m128 c, __m128 d) {
-    const auto halves = [](__m128 left, __m128 right) {
-        return _mm_add_ps(_mm_movelh_ps(left, right), _mm_movehl_ps(right, left));
-    };
-    return _mm_hadd_ps(halves(a, b), halves(c, d));
-}
-
-/// Adds the four lanes of weighted(pixel), the weighted bins of a pixel.
-template <class Weighted>
-void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* sums) {
-    std::size_t p = 0;
-    for (; p + 4 <= pixels.size(); p += 4) {
-        _mm_storeu_ps(sums + p, lane_sums(weighted(pixels[p]), weighted(pixels[p + 1]),
-                                          weighted(pixels[p + 2]), weighted(pixels[p + 3])));
+/// The mean of `rows` x `beams` bins. Equal bins have their own value as the mean.
+float mean_of(const PaddedImage& bins, std::int32_t first_bin, int rows, int beams) {
+    const float* row = bins.values.get() + first_bin;
+    float sum = 0.0F;
+    for (int i = 0; i < rows; ++i, row += bins.width) {
+        for (int j = 0; j < beams; ++j)
+            sum += row[j];
     }
-    for (; p < pixels.size(); ++p) {
-        const __m128 lanes = weighted(pixels[p]);
-        sums[p] = _mm_cvtss_f32(lane_sums(lanes, lanes, lanes, lanes));
-    }
+    return sum / static_cast<float>(rows * beams);
 }
 
-/// Weighs the bins of at most `fan_block` pixels. The number of beam taps is a multiple of 4.
-void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
-                std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
-    const int range_taps = map.range_kernel.taps;
-    const int beam_taps = beam_kernel.taps;
-    add_lanes(
-        pixels,
-        [&](const FanMap::Pixel& pixel) {
-            const float* const range =
-                map.range_kernel.weights.data() + std::ptrdiff_t{pixel.range_phase} * range_taps;
-            const float* const beam =
-                beam_kernel.weights.data() + std::ptrdiff_t{pixel.beam_phase} * beam_taps;
-            __m128 sum = _mm_setzero_ps();
-            for (int b = 0; b < beam_taps; b += 4) {
-                const float* const first = bins.values.get() + pixel.first_bin + b;
-                __m128 over_range = _mm_mul_ps(_mm_set1_ps(range[0]), _mm_loadu_ps(first));
-                for (int k = 1; k < range_taps; ++k) {
-                    over_range = _mm_add_ps(
-                        over_range,
-                        _mm_mul_ps(_mm_set1_ps(range[k]), _mm_loadu_ps(first + k * bins.width)));
-                }
-                sum = _mm_add_ps(sum, _mm_mul_ps(over_range, _mm_loadu_ps(beam + b)));
-            }
-            return sum;
-        },
-        sums);
-}
-
-/// The grey value of a pixel: 255 sqrt(scale * sum), rounded.
-std::uint8_t grey_of(float sum, float scale) {
+/// The grey value of a pixel: 255 sqrt(scale * mean), rounded.
+std::uint8_t grey_of(float mean, float scale) {
     // In this order of arguments NaN becomes 0.
-    const float share = std::min(std::max(0.0F, scale * sum), 1.0F);
+    const float share = std::min(std::max(0.0F, scale * mean), 1.0F);
     return static_cast<std::uint8_t>(static_cast<int>(255.0F * std::sqrt(share) + 0.5F));
 }
 
 void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& bins, float scale,
                std::vector<std::uint8_t>& picture) {
-    const bool has_one_bin =
-        map.range_kernel.weights.front() == 1.0F && ring.beam_kernel.weights.front() == 1.0F;
-    std::array<float, fan_block> sums{};
+    std::array<float, fan_block> means{};
     std::array<std::uint8_t, fan_block> grey;
     RunWriter out(ring, picture);
     auto edge = ring.edges.begin();
     for (std::size_t begin = 0; begin < ring.pixels.size(); begin += fan_block) {
         const auto pixels =
             std::span(ring.pixels).subspan(begin, std::min(fan_block, ring.pixels.size() - begin));
-        if (has_one_bin) {
-            for (std::size_t p = 0; p < pixels.size(); ++p)
-                sums[p] = bins.values[static_cast<std::size_t>(pixels[p].first_bin)];
-        } else {
-            weigh_bins(map, ring.beam_kernel, pixels, bins, sums.data());
-        }
-        for (; edge != ring.edges.end() && edge->pixel < begin + pixels.size(); ++edge)
-            sums[edge->pixel - begin] *= edge->covered;
         for (std::size_t p = 0; p < pixels.size(); ++p)
-            grey[p] = grey_of(sums[p], scale);
+            means[p] = mean_of(bins, pixels[p], map.range_bins, ring.beams);
+        for (; edge != ring.edges.end() && edge->pixel < begin + pixels.size(); ++edge)
+            means[edge->pixel - begin] *= edge->covered;
+        for (std::size_t p = 0; p < pixels.size(); ++p)
+            grey[p] = grey_of(means[p], scale);
         out.put(std::span(grey).first(pixels.size()));
     }
 }

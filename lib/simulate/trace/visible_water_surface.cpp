@@ -124,6 +124,7 @@ bool keep_below(const Eigen::Vector3f& up, float room_m, Sample& sample) {
     const float share = 0.5F + 0.5F * (room_m + surface_slack_m) / half_m;
     if (!(share > 0.0F)) return false;
     if (share >= 1.0F) return true;
+    // Wedges are cut as parallelograms.
     const bool is_u = std::fabs(rise_u) > std::fabs(rise_v);
     Eigen::Vector3f& edge = is_u ? sample.edge_u : sample.edge_v;
     sample.position -= std::copysign(1.0F - share, is_u ? rise_u : rise_v) * edge;

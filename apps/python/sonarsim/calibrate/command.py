@@ -82,9 +82,9 @@ def check_usable(recording, kind):
 
 
 def check_values(values, largest):
-    # Values are rounded to whole numbers, unless all lie below 15.
     if values.shape[1] < 24:
-        raise CalibrationError("fewer than 24 ranges: record longer pings")
+        raise CalibrationError("fewer than 24 ranges: record longer pings, or save larger fans")
+    # Values are rounded to whole numbers, unless all lie below 15.
     full = (values >= (largest - 0.5 if largest > 15.0 else largest)).mean()
     if values.min() == values.max():
         raise CalibrationError("every value is the same: it is empty")
@@ -176,7 +176,7 @@ def all_figures(shaped, fits):
 
 
 def fit_by_figures(shaped, fits, fit):
-    """The figures of a fit, with the start's gain and noise if more agree with these; CalibrationError if too few do."""
+    """The figures of a fit, with the start's gain and noise if more agree with these; CalibrationError if more still do."""
     while True:
         rows = all_figures(shaped, fits)
         lost = sum(row[0].agrees for row in rows) - sum(row[2].agrees for row in rows)

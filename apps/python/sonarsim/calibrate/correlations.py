@@ -76,10 +76,11 @@ def pulse_at(widths, side_lobe_db):
 
 def taps_of(bins, side_lobe_db, kind):
     """The amplitudes at whole bins with which the model filters white noise, or spreads echoes."""
-    reach = int(np.clip(np.ceil(3.0 * bins), 2, 64))
+    reach = int(np.clip(np.ceil(3.0 * bins), 2, 8192))
     if kind == "noise":
         # Noise is correlated as high as the compressed pulse is. A thousandth of the energy at the ends is left out.
-        lags = np.minimum(np.arange(2048), 2048 - np.arange(2048))
+        at = np.arange(max(2048, 8 * reach))
+        lags = np.minimum(at, len(at) - at)
         spectrum = np.fft.fft(pulse_at(lags / max(bins, 0.1), side_lobe_db)).real
         taps = np.roll(np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real, reach)[:2 * reach + 1]
         cut = int((2.0 * np.cumsum(taps[:reach] ** 2) <= 1e-3 * (taps @ taps)).sum())

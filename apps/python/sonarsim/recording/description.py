@@ -111,8 +111,6 @@ def read_description(path):
     for key in NEEDED.get(own.source, ()):
         if getattr(own, key) is None or key == "range_step_m" and own.range_step_m == 0.0:
             own.refuse(f"lacks the key '{key}', or has it 0")
-    if own.bearing_first_deg == own.bearing_last_deg != 0.0:
-        own.refuse("has the same bearing_first_deg and bearing_last_deg")
     if own.spread == "sine" and max(abs(own.bearing_first_deg), abs(own.bearing_last_deg)) > 90.0:
         own.refuse("has bearings beyond -90 and 90 degrees, which 'spread: sine' cannot have")
     return own

@@ -32,6 +32,8 @@ def read_files(own, max_pings):
         if own.source != "files" and not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
             own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no bearings")
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
+        if own.bearing_first_deg != 0.0 and recording.values.shape[2] > 1 and np.ptp(recording.bearing_rad) == 0.0:
+            own.refuse("has the same bearing for all beams")
     return recording
 
 

@@ -133,7 +133,9 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     const Image image = read_image(path);
     require_heights(image, where);
     if (image.heights_in_feet && !rule.is_scaled)
-        refuse(where, "has its heights in feet; write scene.heightmap.height_scale: 0.3048");
+        refuse(where,
+               "has its heights in feet; write scene.heightmap.height_scale: 0.3048, or of depths "
+               "-0.3048");
     const PixelGrid grid = grid_in_metres(image, rule.pixel_m, "scene.heightmap", where);
     const PixelWindow window = pixels_within(image, grid,
                                              {Eigen::Vector2d(rule.window[0], rule.window[1]),

@@ -38,6 +38,6 @@ namespace sonarsim {
 
 inline constexpr const char* image_module = "images";
 /// The number rises with every change above, so that a module of another version is not used.
-inline constexpr const char* image_module_symbol = "sonarsim_read_image_4";
+inline constexpr const char* image_module_symbol = "sonarsim_read_image_5";
 
 }  // namespace sonarsim

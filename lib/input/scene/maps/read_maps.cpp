@@ -88,7 +88,8 @@ MaterialTexels read_material_map(
         }
         const auto same = std::ranges::find(out.materials, material);
         if (!choices.emplace(*number, same - out.materials.begin()).second)
-            refuse(where, "has the value {} twice in {}.materials", *number, sediment_section);
+            refuse(where, "has one material for each value, and {}.materials has '{}' twice",
+                   sediment_section, printable(key));
         if (same == out.materials.end()) out.materials.push_back(material);
     }
     const auto use = [&](const float* pixel, int row, int column) {

@@ -117,7 +117,10 @@ void write_bathymetry(const WriterContext& context, const RecordFile& records,
     while (bounds.count > 0) {
         GroundGrid finer = make_ground_grid(bounds, cell_of_soundings(grid, bounds.count));
         if (!(finer.cell_m < grid.cell_m)) break;
-        grid = filled(std::move(finer));
+        finer = filled(std::move(finer));
+        // Soundings of ground that was sounded before fill few cells more.
+        if (2 * filled_cells(finer) < 3 * filled_cells(grid)) break;
+        grid = std::move(finer);
     }
     write_map(context, folder, "bathymetry", grid, grid.mean(),
               {{"file", "bathymetry.tif"},

@@ -112,16 +112,19 @@ void write_xtf(const WriterContext& context, const VisibilityEngine& engine, con
 double mosaic_cell_m(const WriterContext& context) {
     const Trajectory& trajectory = context.assembly.trajectory;
     const auto every = static_cast<std::size_t>(context.sonar().config.every);
-    std::vector<double> steps_m{0.0};
+    const double bin_m = context.sonar().settings.view.bin_m();
+    std::vector<double> steps_m;
     for (std::size_t k = every; k < trajectory.size(); k += every) {
-        steps_m.push_back((trajectory[k].T_world_vehicle.translation -
-                           trajectory[k - every].T_world_vehicle.translation)
-                              .norm());
+        const double step_m = (trajectory[k].T_world_vehicle.translation -
+                               trajectory[k - every].T_world_vehicle.translation)
+                                  .norm();
+        if (step_m > 0.1 * bin_m) steps_m.push_back(step_m);
     }
-    // The median: a trajectory may have gaps.
+    // The median of the steps that move: a trajectory may have gaps and waits.
+    if (steps_m.empty()) return round_up_125(bin_m);
     const auto middle = steps_m.begin() + std::ssize(steps_m) / 2;
     std::ranges::nth_element(steps_m, middle);
-    return round_up_125(std::max(1.2 * *middle, context.sonar().settings.view.bin_m()));
+    return round_up_125(std::max(1.2 * *middle, bin_m));
 }
 
 void write_mosaic(const WriterContext& context, const VisibilityEngine& engine,

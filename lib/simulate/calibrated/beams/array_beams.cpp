@@ -1,5 +1,3 @@
-
-
 #include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/beams/beamformer.h"

@@ -1,4 +1,3 @@
-
 #include "core/decibel.h"
 #include "core/units.h"
 #include "simulate/calibrated/beams/beams.h"

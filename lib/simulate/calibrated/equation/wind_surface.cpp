@@ -1,4 +1,3 @@
-
 #include "core/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"

@@ -13,7 +13,7 @@ namespace {
 /// The half-power width for which line_array() designs a band: any small angle works.
 constexpr double unit_width = 1e-3;
 
-// Pulses are cut off at the greatest number of bins.
+// Pulses are cut off at the greatest `range_bins`.
 constexpr double max_reach = 8192.0;
 
 /// The bins to either side of a pulse's middle that have its main lobe and two side lobes.
