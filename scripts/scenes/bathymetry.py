@@ -17,8 +17,7 @@ def height(x, y, relief):
     z += 0.25 * math.sin(2 * math.pi * along / 7.0 + 0.4 * math.sin(0.15 * (0.6 * x - 0.8 * y)))
     z -= 1.6 * math.exp(-((x - 38 - 4 * math.sin(0.1 * y)) / 4.0) ** 2)  # a channel from south to north
     z += 1.2 * math.exp(-((x - 18) ** 2 + (y - 36) ** 2) / 6.0)  # a mound in the north-west
-    off = y - 14 - 0.25 * x
-    z -= 0.3 * math.exp(-(off / 0.5) ** 2)  # a scar from west to east-north-east
+    z -= 0.3 * math.exp(-((y - 14 - 0.25 * x) / 0.5) ** 2)  # a scar from west to east-north-east
     return z
 
 

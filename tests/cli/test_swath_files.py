@@ -126,6 +126,8 @@ class SwathFiles(Rendered):
         self.assertAlmostEqual(place["columns"] * cell, 20, delta=2 * cell)
         self.assertAlmostEqual(place["rows"] * cell, 2 * math.sqrt(25**2 - 10**2), delta=2 * cell)
         self.assertEqual((place["pings"], place["pings_left_out"]), (161, 0))
+        self.assert_renders("--overwrite", *with_keys("trajectory.rate_hz=8", "sensors.sss.range_min_m=14"))
+        self.assertTrue(math.isnan(echo(2, -5)) and echo(2, -11) > 0.0)
 
     @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
     def test_a_mosaic_of_lines_that_overlap(self):

@@ -57,16 +57,16 @@ class Variants(Sandbox):
         self.assertEqual(len({one["seed"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
-        self.assert_renders("--set", "sensors.fls.noise.add_sigma=0.5", "--out", "fixed")
-        for one in index:
-            del one["drawn"]["sensors.fls.noise.add_sigma"]
-        self.assertEqual([one["drawn"] for one in self.variants("fixed")], [one["drawn"] for one in index])
         self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
             dataset = self.dataset(self.out / one["folder"])
             self.assertEqual((dataset["complete"], dataset["seed"], dataset["variant"]["drawn"]), (True, one["seed"], one["drawn"]))
             self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
             self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
+        self.assert_renders("--set", "sensors.fls.noise.add_sigma=0.5", "--out", "fixed")
+        for one in index:
+            del one["drawn"]["sensors.fls.noise.add_sigma"]
+        self.assertEqual([one["drawn"] for one in self.variants("fixed")], [one["drawn"] for one in index])
         # One alone, and fewer of them.
         again = ("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out")
         self.assert_refused(self.run_sonarsim(*again, "out/variant_0004"), "that is a variant of a mission")

@@ -25,8 +25,7 @@ def pattern(pedestal, t):
 
 def highest_side_lobe_db(pedestal):
     value = pattern(pedestal, np.arange(1.0, 5.0, 0.005))
-    null = np.flatnonzero(value[1:] * value[:-1] <= 0.0)[0]
-    return 10.0 * np.log10(np.max(value[null + 1:] ** 2))
+    return 10.0 * np.log10(np.max(value[np.flatnonzero(value[1:] * value[:-1] <= 0.0)[0] + 1:] ** 2))
 
 
 @functools.lru_cache(256)
@@ -79,8 +78,7 @@ def taps_of(bins, side_lobe_db, kind):
     reach = int(np.clip(np.ceil(3.0 * bins), 2, 8192))
     if kind == "noise":
         # Noise is correlated as high as the compressed pulse is. A thousandth of the energy at the ends is left out.
-        at = np.arange(max(2048, 8 * reach))
-        lags = np.minimum(at, len(at) - at)
+        lags = np.fft.ifftshift(np.abs(np.arange(-max(1024, 4 * reach), max(1024, 4 * reach))))
         spectrum = np.fft.fft(pulse_at(lags / max(bins, 0.1), side_lobe_db)).real
         taps = np.roll(np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real, reach)[:2 * reach + 1]
         cut = int((2.0 * np.cumsum(taps[:reach] ** 2) <= 1e-3 * (taps @ taps)).sum())

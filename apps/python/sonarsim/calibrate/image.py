@@ -69,8 +69,7 @@ def drop_wide(fit, level_at_start):
                              "start is kept")
             if name == "tvg_log" and fit.estimates.pop("receiver.full_scale_db", None):     # it holds for that growth alone
                 fit.level_db = level_at_start
-                for level in ("full_scale_db", "tvg_absorption"):
-                    fit.instrument["receiver"][level] = fit.start["receiver"].get(level)
+                fit.instrument["receiver"].update((key, fit.start["receiver"].get(key)) for key in ("full_scale_db", "tvg_absorption"))
                 fit.notes = [note for note in fit.notes if not note.startswith("full_scale_db is fitted")]
 
 
