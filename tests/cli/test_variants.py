@@ -64,9 +64,8 @@ class Variants(Sandbox):
             self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
             self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
         self.assert_renders("--set", "sensors.fls.noise.add_sigma=0.5", "--out", "fixed")
-        for one in index:
-            del one["drawn"]["sensors.fls.noise.add_sigma"]
-        self.assertEqual([one["drawn"] for one in self.variants("fixed")], [one["drawn"] for one in index])
+        others = [{key: value for key, value in one["drawn"].items() if not key.endswith("add_sigma")} for one in index]
+        self.assertEqual([one["drawn"] for one in self.variants("fixed")], others)
         # One alone, and fewer of them.
         again = ("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out")
         self.assert_refused(self.run_sonarsim(*again, "out/variant_0004"), "that is a variant of a mission")
