@@ -84,7 +84,7 @@ std::size_t ring_of(double extent) {
 
 /// The first of the `count` bins nearest to a place, in bins from the lower edge of bin 0.
 int first_of_nearest(double place, int count) {
-    // Of one bin that is the bin of the place.
+    // With one bin it is the bin of the place.
     return static_cast<int>(std::floor(place - 0.5 * (count - 1)));
 }
 

@@ -61,7 +61,7 @@ struct FanMap {
     };
 
     FanFrame frame;
-    int range_bins = 1;  ///< of each pixel
+    int range_bins = 1;  ///< a pixel covers so many, rounded
     std::vector<Ring> rings;
     int range_padding = 0;   ///< rows before the first and after the last bin, so that pixels
     int beam_padding = 0;    ///< at the edges need no special case; the same for columns
