@@ -2,6 +2,9 @@
 
 #include "simulate/reference/reference.h"
 #include "support/bounces.h"
+#include "support/calibrated.h"
+#include "support/patches.h"
+#include "support/sonars.h"
 
 namespace {
 
