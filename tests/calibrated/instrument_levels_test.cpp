@@ -84,7 +84,6 @@ TEST_CASE("levels: directivity of line, rectangle and disc is the integral of th
 TEST_CASE("levels: the pulse's band and length are those of the range response") {
     for (const double side_lobe_db : {-20.0, -30.0, -42.0}) {
         CAPTURE(side_lobe_db);
-        // Wide, so that the spline follows the pulse.
         const double bins = side_lobe_db == -30.0 ? 300.0 : 12.0;
         const PulseConfig pulse{.side_lobe_db = side_lobe_db};
         const PulseBand band = pulse_band(pulse, 0.1, 1500.0);

@@ -106,7 +106,6 @@ TEST_CASE("targets: with maps they are in every ping, with the power of their te
     }
 }
 
-// Long triangles reach out of both sides of a thin view: their middles may lie outside of it.
 TEST_CASE("targets: a rod across a thin view has one level, however it is cut") {
     SonarConfig config = target_sonar(SonarKind::sidescan).config;
     config.elevation_deg = 0.25;

@@ -63,6 +63,21 @@ TEST_CASE("labels: the visible share of a narrow wall behind ground that hides i
     }
 }
 
+TEST_CASE("labels: what lies above the water's surface counts in no visible share") {
+    Scene scene = rectangle_scene({6, -1, -1}, {6, 1, 1}, 0.5F);
+    add_rectangle(scene, {3, -1, 0.05F}, {3, 1, 1}, 0);  // before z > 0.6 m of the wall
+    scene.bounds_max = {6, 1, 1};
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    for (const bool is_dry : {true, false}) {
+        scene.water_surface = WaterSurface{is_dry ? 0.0 : 5.0};
+        const Labelled out =
+            label(scene, noise_free(config), {.translation = {0, 0, -0.5}}, EngineKind::automatic,
+                  {.annotations = true, .annotated = {&anywhere, 1}});
+        CHECK(out.labels.visible_share[0] == approx(is_dry ? 1.0 : 0.8).epsilon(0.03));
+    }
+}
+
 TEST_CASE("labels: the visible share of thin bars behind a panel") {
     // Along y or z at x = 6 m; the panel is at 3 m. The solid angle of a bar from a to b is as
     // b / sqrt(36 + b^2) - a / sqrt(36 + a^2).

@@ -109,7 +109,6 @@ TEST_CASE("fan: a bright bin lies where an operator expects it, port on the left
                 const double r1 = sonar.range_edges_m[range_bin + 1];
                 const double a0 = sonar.azimuth_edges_rad[beam];
                 const double a1 = sonar.azimuth_edges_rad[beam + 1];
-                // The centroid of the echo as the picture shows it, from the middle of the bin.
                 const double azimuth = 0.5 * (a0 + a1);
                 double beside = 0.0;
                 double range = 0.0;

@@ -227,7 +227,6 @@ TEST_CASE("bathymetry: cells suit the soundings, and never are too many") {
     bounds.add({40, 20, 0});
     bounds.count = 32'000;  // 4 * 800 m^2 / 32000 = 0.1 m^2: cells of 0.32 m, rounded up
     CHECK(make_ground_grid(bounds, 0.0).cell_m == 0.5);
-    // 400 soundings on the diagonal of a box of 80 m are in 8 of its cells of 10 m.
     GroundBounds line;
     for (int k = 0; k < 400; ++k)
         line.add({0.2 * k, 0.2 * k, 0});
@@ -235,7 +234,7 @@ TEST_CASE("bathymetry: cells suit the soundings, and never are too many") {
     CHECK(coarse.cell_m == 10.0);
     for (int k = 0; k < 400; ++k)
         coarse.add({0.2 * k, 0.2 * k, 0});
-    CHECK(cell_of_soundings(coarse, 400) == 5.0);  // 10 sqrt(4 * 8 / 400) = 2.8
+    CHECK(cell_of_soundings(coarse, 400) == 5.0);  // on its diagonal: 10 sqrt(4 * 8 / 400)
     CHECK(make_ground_grid({}, 0.0).columns == 0);
     const GroundGrid held =
         make_ground_grid(bounds, 5e-324);  // the finest that a mission can ask for

@@ -4,7 +4,6 @@
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
-#include "support/sonars.h"
 
 namespace {
 
@@ -105,14 +104,12 @@ TEST_CASE("water surface: a wall ends there, for every engine and for the refere
     config.elevation_deg = 80.0;
     const Sonar sonar = noise_free(config);
     for (const double top_m : {-0.7, 0.3}) {
-        scene.water_surface = WaterSurface{top_m, 1.0F, std::nullopt};
+        scene.water_surface = WaterSurface{top_m};
         const Pose pose{.translation = {0.0, 0.0, -1.0}};
-        const Pose T_world_sensor = sensor_pose(sonar, pose, 0);
         const Reference truth = cast_reference(Caster(scene), scene, sonar.settings.view,
-                                               T_world_sensor, {0.003, 16.0, 400'000});
+                                               sensor_pose(sonar, pose, 0), {0.003, 16.0, 400'000});
         for (const EngineKind kind : {EngineKind::rays, EngineKind::strips}) {
-            const auto engine = engine_of(scene, kind);
-            const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+            const TracedPing traced = trace(sonar, scene, *engine_of(scene, kind), pose, 0);
             CHECK(area_of(traced.samples) == approx(2.0 * (top_m + 2.0)).epsilon(0.02));
             CHECK(error_without_noise(expected_image(sonar, scene, kind, pose), truth) < 0.03);
         }

@@ -54,6 +54,9 @@ inline double power_reflection(double density_kg_m3, double sound_speed_m_s, con
 
 /// The surface of the water. It reflects sound from below specularly.
 struct WaterSurface {
+    /// Surface in that of the water counts as below it, with its rounding. Chosen.
+    static constexpr double slack_m = 1e-3;
+
     double height_m = 0.0;    ///< world
     float reflection = 0.0F;  ///< power reflection coefficient
     /// Speed of the wind whose waves scatter sound back; empty: the surface has no echo.

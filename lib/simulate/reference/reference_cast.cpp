@@ -58,7 +58,7 @@ double highest_received(const ReferenceView& looking) {
     const auto& surface = looking.scene.water_surface;
     if (!surface || looking.T_world_sensor.translation.z() > surface->height_m)
         return std::numeric_limits<double>::infinity();
-    return surface->height_m + 1e-3 - looking.scene.origin.z();
+    return surface->height_m + WaterSurface::slack_m - looking.scene.origin.z();
 }
 
 struct Cast {

@@ -113,15 +113,13 @@ class SurfaceCutter {
     std::uint32_t material_;
 };
 
-// Surface that lies in that of the water stays, with its rounding.
-constexpr float surface_slack_m = 1e-3F;
-
 /// Keeps the part of a sample below the water's surface, `room_m` above its middle; false: none.
 bool keep_below(const Eigen::Vector3f& up, float room_m, Sample& sample) {
     const float rise_u = up.dot(sample.edge_u);
     const float rise_v = up.dot(sample.edge_v);
-    const float half_m = std::max(std::fabs(rise_u) + std::fabs(rise_v), surface_slack_m);
-    const float share = 0.5F + 0.5F * (room_m + surface_slack_m) / half_m;
+    constexpr auto slack_m = static_cast<float>(WaterSurface::slack_m);
+    const float half_m = std::max(std::fabs(rise_u) + std::fabs(rise_v), slack_m);
+    const float share = 0.5F + 0.5F * (room_m + slack_m) / half_m;
     if (!(share > 0.0F)) return false;
     if (share >= 1.0F) return true;
     // Wedges are cut as parallelograms.

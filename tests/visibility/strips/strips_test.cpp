@@ -268,8 +268,7 @@ TEST_CASE("strips: drawn lattices are within their error goals") {
                                    cast_reference(Caster(lattice.scene), lattice.scene,
                                                   sonar.settings.view, Pose{}, of_truth));
     };
-    // The goals are means over the scenes; single scenes exceed them.
-    for (const double goal : {0.03, 0.01}) {
+    for (const double goal : {0.03, 0.01}) {  // means over the scenes; single ones exceed them
         double mean = 0.0;
         int count = 0;
         for (std::uint32_t number = 0; number < 24; number += goal < 0.02 ? 3 : 1) {
