@@ -1,13 +1,10 @@
 #include "core/decibel.h"
-#include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/statistics.h"
 
 namespace {
-
-constexpr PhiloxKey noise_key{11, 12};
 
 /// The correlation that taps give white noise.
 double tap_correlation(const std::vector<float>& taps, std::size_t lag) {
@@ -77,23 +74,6 @@ TEST_CASE("noise: its taps give it the correlation of the pulse and keep the pow
             }
         }
     }
-}
-
-TEST_CASE("noise: it is white where the pulse is shorter than a bin") {
-    for (const double bins : {1e-9, 0.05, 0.1, 0.3})
-        CHECK(noise_taps(bins, -30.0) == std::vector<float>{1.0F});
-}
-
-TEST_CASE("noise: that of a bin does not depend on the bins before it") {
-    const std::vector<float> taps = noise_taps(5.0, -25.0);
-    const NoiseChannels channels{.firsts = 4, .seconds = 3};
-    FilteredNoise all(channels, taps, noise_key);
-    for (int row = 0; row <= 40; row += lanes)
-        all.go_to(row);
-    FilteredNoise one(channels, taps, noise_key);
-    one.go_to(40);
-    for (int channel = 0; channel < channels.count(); ++channel)
-        CHECK(all.of(channel).re == one.of(channel).re);
 }
 
 // The powers of Gaussian amplitudes have the square of the amplitudes' correlation (Siegert's

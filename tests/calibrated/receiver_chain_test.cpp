@@ -23,6 +23,17 @@ std::vector<float> noise_image(const ReceiverConfig& chain, std::uint32_t ping =
     return image_of_traced(calibrated_model(config, {}, view, {}), view, {}, {}, {3, 2, ping});
 }
 
+/// The faults of a window of 26.68 ms in bins over noise of 1e-6, with pulses of two bins.
+std::vector<float> faults_of(const ReceiverConfig& receiver, int bins, std::uint32_t ping) {
+    const std::vector<float> noise(bins, 1e-6F);
+    const double bin_s = 0.02668 / bins;
+    std::vector<float> image(bins, 0.0F);
+    add_faults(receiver,
+               {.bin_s = bin_s, .pulse_s = 2.0 * bin_s, .rows = bins, .beams = 1, .noise = noise},
+               {1, 2, ping}, image);
+    return image;
+}
+
 constexpr double bin_m = 0.05;
 constexpr double water_speed_m_s = 1500.0;
 
@@ -51,18 +62,6 @@ double delivered(const ReceiverConfig& config, double x) {
 
 }  // namespace
 
-// The largest of three exponential powers lies below x with the probability (1 - exp(-x))^3, and
-// its mean 1 + 1/2 + 1/3 is divided out.
-TEST_CASE("receiver: the largest of several samples has its distribution") {
-    std::vector<double> powers;  // over the mean of the noise
-    for (std::uint32_t ping = 0; ping < 8; ++ping) {
-        for (const float power : noise_image(sampling(3.0, SampleRule::maximum), ping))
-            powers.push_back(power / 1e-10);
-    }
-    CHECK(ks_p_value(powers,
-                     [](double x) { return std::pow(1.0 - std::exp(-11.0 / 6.0 * x), 3); }) > 1e-3);
-}
-
 TEST_CASE("receiver: ringing lies where it should") {
     const std::vector<float> plain = noise_image({});
     ReceiverConfig ringing;
@@ -81,18 +80,10 @@ TEST_CASE("receiver: foreign pulses come at their rate and with their level") {
     receiver.interference_per_s = 40.0;
     receiver.interference_db = 20.0;
     constexpr int rows_count = 400;
-    const std::vector<float> noise(rows_count, 1e-6F);
-    const ImageRows rows{.bin_m = 0.05,
-                         .bin_s = 0.02668 / rows_count,
-                         .pulse_s = 2 * 0.02668 / rows_count,
-                         .rows = rows_count,
-                         .beams = 1,
-                         .noise = noise};
     double energy = 0.0;
     int pulses = 0;
     for (std::uint32_t ping = 0; ping < 2000; ++ping) {
-        std::vector<float> image(rows_count, 0.0F);
-        add_faults(receiver, rows, {1, 2, ping}, image);
+        const std::vector<float> image = faults_of(receiver, rows_count, ping);
         for (int row = 0; row < rows_count; ++row) {
             energy += image[row] / 1e-6;
             pulses += image[row] > 0.0F && (row == 0 || image[row - 1] == 0.0F) ? 1 : 0;
@@ -111,14 +102,10 @@ TEST_CASE("receiver: long foreign pulses cover whole pings") {
     receiver.interference_per_s = 0.2;
     receiver.interference_s = 1.0;
     constexpr int rows_count = 50;
-    const std::vector<float> noise(rows_count, 1e-6F);
-    const ImageRows rows{
-        .bin_s = 0.02668 / rows_count, .rows = rows_count, .beams = 1, .noise = noise};
     int pings = 0;
     int whole = 0;
     for (std::uint32_t ping = 0; ping < 2000; ++ping) {
-        std::vector<float> image(rows_count, 0.0F);
-        add_faults(receiver, rows, {1, 2, ping}, image);
+        const std::vector<float> image = faults_of(receiver, rows_count, ping);
         const auto covered = std::ranges::count_if(image, [](float value) { return value > 0.0F; });
         pings += covered > 0 ? 1 : 0;
         whole += covered == rows_count ? 1 : 0;
@@ -171,12 +158,39 @@ TEST_CASE("receiver: gains of beams stay") {
     receiver.channel_beams = 3;
     CHECK(beam_gain_db(receiver, 3, {1, 2, 0}) == beam_gain_db(receiver, 5, {1, 2, 0}));
     CHECK(beam_gain_db(receiver, 2, {1, 2, 0}) != beam_gain_db(receiver, 3, {1, 2, 0}));
-    receiver = {};
-    receiver.edge_loss_db = 6.0;  // the last beam lies 7/8 of half the fan off
-    std::vector<float> image(16, 1.0F);
-    add_faults(receiver, rows, {1, 2, 3}, image);
-    CHECK(10.0 * std::log10(image[7]) == approx(-6.0 * 49.0 / 64.0).epsilon(1e-4));
-    CHECK(image[8] == image[7]);
+}
+
+TEST_CASE("receiver: beams that are received together leak into each other") {
+    ReceiverConfig receiver;
+    receiver.channel_beams = 3;
+    std::vector<float> image(16, 1.0F);  // 2 bins
+    image[8 + 4] = 1001.0F;
+    add_leaks(receiver, 8, image);
+    const auto more = [&](int k) { return static_cast<double>(image[8 + k] - image[k]); };
+    for (int k = 0; k < 8; ++k)
+        CHECK(more(k) == approx(k == 4 ? 1000.0 : k % 3 == 1 ? 1.0 : 0.0).epsilon(1e-3));
+}
+
+TEST_CASE("receiver: the lobe of an element weakens echoes at the edges of a fan, not its noise") {
+    SonarConfig config = calibrated(small_imaging(), 1e6);
+    config.instrument.speckle.mode = SpeckleMode::none;
+    const auto image = [&](double loss_db, const Scene& scene) {
+        config.instrument.receiver.edge_loss_db = loss_db;
+        return render_ping(make_sonar(config, {0.03}), scene,
+                           *engine_of(scene, EngineKind::automatic), pitched(30.0, {0, 0, 3}),
+                           {.seed = 1, .ping = 0})
+            .intensity;
+    };
+    CHECK(image(6.0, empty_scene()) == image(0.0, empty_scene()));
+    config.instrument.receiver.noise_db = -200.0;
+    const Scene floor = floor_scene(40.0F, 0.0F, 0.5F);
+    const std::vector<float> even = image(0.0, floor);
+    const std::vector<float> weaker = image(6.0, floor);
+    for (const int beam : {0, 20, 63}) {
+        const double off = (2.0 * beam + 1.0) / 64 - 1.0;
+        const int k = 150 * 64 + beam;
+        CHECK(std::fabs(10.0 * std::log10(weaker[k] / even[k]) + 6.0 * off * off) < 0.2);
+    }
 }
 
 TEST_CASE("reverberation: a tail has its share of the energy, and falls by 60 dB in T60") {

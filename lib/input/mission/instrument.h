@@ -94,8 +94,8 @@ struct ReceiverConfig {
     double ring_down_db = 0.0;        ///< at range 0, above the noise; 0: none
     double ring_down_m = 0.1;         ///< range over which it falls by 10 dB
     double beam_gain_db = 0.0;        ///< standard deviation of the gains of the channels
-    int channel_beams = 1;            ///< adjacent beams that one channel receives
-    double edge_loss_db = 0.0;        ///< loss at the edges of a fan
+    int channel_beams = 1;            ///< adjacent beams that one channel receives in turn
+    double edge_loss_db = 0.0;        ///< loss of echoes at the edges of a fan
     double reverberation_db = -20.0;  ///< energy of the tail of an echo over the echo's
     double reverberation_s = 0.0;     ///< time in which it falls by 60 dB; 0: none
     double interference_per_s = 0.0;  ///< rate of foreign pulses
@@ -251,9 +251,10 @@ void describe_chain(auto& v, ReceiverConfig& c) {
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of channels, which stay from ping to ping");
     v.number("channel_beams", c.channel_beams, between(1, 4096),
-             "adjacent beams that one channel receives, with one gain");
+             "adjacent beams that one channel receives in turn, with one gain; beams of one "
+             "turn leak into each other, at -30 dB");
     v.number("edge_loss_db", c.edge_loss_db, between(0, 30),
-             "loss at the edges of a fan; it grows from the middle as the square");
+             "loss of echoes at the edges of a fan; it grows from the middle as the square");
 }
 
 void describe(auto& v, ReceiverConfig& c) {

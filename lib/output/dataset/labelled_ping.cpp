@@ -72,6 +72,16 @@ Ids without_background(Ids ids, const SceneObjects& objects) {
     return ids;
 }
 
+/// Weakens echoes as the receiver does towards the edges of a fan.
+void weaken(std::span<const float> beam_gain, PingLabels& bins) {
+    if (beam_gain.empty()) return;
+    for (std::vector<float>* const echoes :
+         {&bins.visible_echo, &bins.own_echo, &bins.whole_echo}) {
+        for (std::size_t k = 0; k < echoes->size(); ++k)
+            (*echoes)[k] *= beam_gain[k / static_cast<std::size_t>(bins.range_bins)];
+    }
+}
+
 /// The outlines of a ping; in a record, which is drawn in its picture, the bodies.
 Ids find_outlines(const LabelPlan& plan, const PingSettings& settings, const PingLabels& labels) {
     const EchoModelInfo& info = settings.model->info;
@@ -164,6 +174,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
+    weaken(sonar.settings.model->info.beam_gain, out.bins);
     if (request.outlines) out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);

@@ -41,7 +41,9 @@ class ImageFormer {
     void form(std::span<float> mean_image) {
         EchoGrid grid(model_.equation.rows, beams_.columns());
         const bool has_tails = form_ == PowerForm::amplitude && model_.reverberation.share > 0.0F;
-        if (!mean_image.empty() || has_tails) mean_ = std::make_unique<EchoGrid>(grid);
+        is_mean_shown_ = !mean_image.empty();
+        if (context_.terms.random > 1) column_gains_ = model_.column_gain;
+        if (is_mean_shown_ || has_tails) mean_ = std::make_unique<EchoGrid>(grid);
 
         // 1. The sonar equation: powers or, with `speckle: scene`, amplitudes of scatterers.
         if (context_.terms.direct) add_samples(grid);
@@ -69,7 +71,8 @@ class ImageFormer {
         add_reverberation(model_.reverberation, powers || !mean_ ? grid : *mean_, form,
                           powers ? 1.0F : speckle_gain_,
                           context_.draws.of(stream_named("reverberation")), grid);
-        grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps);
+        grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps, column_gains_,
+                            powers);
         beams_.form(grid, powers, noisy, context_.draws.received(Stream::receiver_noise),
                     model_.row_gain, image);
     }
@@ -190,8 +193,8 @@ class ImageFormer {
     }
 
     void add_multipath(EchoGrid& grid) {
-        const std::vector<SpecularPath> paths =
-            specular_paths(traced_, context_.scene, context_.view.shape);
+        const std::vector<SpecularPath> paths = specular_paths(
+            traced_, context_.scene, model_.scattering.materials, context_.view.shape);
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         add_drawn_by_ping(Stream::speckle, grid, [&](EchoGrid& powers) {
@@ -213,7 +216,7 @@ class ImageFormer {
             if (samples.empty()) continue;
             const bool target = kind.kind == SampleKind::target;
             add_points(target ? joined(samples) : points_of(kind, samples), target, grid);
-            if (!mean_) continue;
+            if (!is_mean_shown_) continue;
             const PingCounts counted = ping_.counts;
             add_pieces(kind.kind, samples, model_.limits, *mean_);
             ping_.counts = counted;
@@ -266,7 +269,9 @@ class ImageFormer {
             // Echoes up to a whole vector are added, too.
             for (int k = points.count; k < echoes_.count; ++k)
                 amplitudes.re[k] = amplitudes.im[k] = 0.0F;
-            beams_.deposit(points, echoes_, &amplitudes, grid, nullptr);
+            // For the tails alone, the points' own powers do.
+            beams_.deposit(points, echoes_, &amplitudes, grid,
+                           is_mean_shown_ ? nullptr : mean_.get());
         });
     }
 
@@ -283,7 +288,9 @@ class ImageFormer {
     PieceStrengths strengths_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
-    std::unique_ptr<EchoGrid> mean_;  ///< the mean powers of the grid, if they are needed
+    std::span<const float> column_gains_;  ///< with the receiver's noise
+    std::unique_ptr<EchoGrid> mean_;       ///< the mean powers of the grid, if they are needed
+    bool is_mean_shown_ = false;           ///< not for tails alone
     Ping& ping_;
 };
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-
 #include "simulate/calibrated/equation/patches.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/trace/sample_kinds.h"

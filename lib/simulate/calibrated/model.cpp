@@ -173,6 +173,12 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         model.beams =
             array_beams(beam, sines, range_bins(view), model.wavelength_m, row_noise, noise_filter);
         model.info.guard_beams = guard_beams_of(beam, view);
+        model.info.beam_gain = edge_gains(receiver, sines.middles, view.azimuth_rad);
+        const SineGrid& grid = *model.beams->sines();
+        std::vector<double> columns(static_cast<std::size_t>(grid.columns));
+        for (int c = 0; c < grid.columns; ++c)
+            columns[c] = grid.first + c * grid.step;
+        model.column_gain = edge_gains(receiver, columns, view.azimuth_rad);
     } else {
         model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, noise_filter);
     }
@@ -216,10 +222,13 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         .rows = context.view.range_bins,
         .beams = context.view.beams,
         .noise = analog_noise_values};
+    if (context.terms.random > 1) add_leaks(receiver, rows.beams, ping.intensity);
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
-        if (context.terms.random > 1)
+        if (context.terms.random > 1) {
             add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);
+            add_leaks(receiver, rows.beams, mean);
+        }
         detected.apply(mean, ping.intensity);
     }
     // Faults belong to the receiver's noise, the last of the random terms.

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/calibrated/beams/beams.h"
@@ -34,6 +28,7 @@ struct CalibratedModel final : EchoModel {
     std::shared_ptr<const Beams> beams;
     Reverberation reverberation;
     DetectedSample detected;
+    std::vector<float> column_gain;  ///< edge_gains() of the columns of the grid
     /// [range bins] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
     /// [range bins] The value of the receiver's mean noise.

@@ -227,7 +227,8 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
                                               const UseEchoes& use) const {
     if (!is_prepared_for(scene))
         return prepared_for(scene)->surface_echoes(traced, view, scene, request, use);
-    const std::vector<SpecularPath> paths = specular_paths(traced, scene, view.shape);
+    const std::vector<SpecularPath> paths =
+        specular_paths(traced, scene, scattering.materials, view.shape);
     const SamplesByKind samples(traced.samples.items, true);
     SurfaceEchoFinder finder(*this, traced, scene, view.shape, request.patches, use);
     std::optional<NearObjects> near_objects;

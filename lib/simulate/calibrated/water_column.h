@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "input/mission/mission.h"
 #include "simulate/calibrated/beams/beams.h"

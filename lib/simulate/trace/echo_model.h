@@ -50,6 +50,8 @@ struct EchoModelInfo {
     /// The factor from the direct echoes of surface_echoes() within a cell to their value in the
     /// image, by range bin; empty: the image has no such unit.
     std::vector<float> echo_gain = {};
+    /// The factor by which the receiver weakens echoes in each beam, and not its noise; empty: 1.
+    std::vector<float> beam_gain = {};
     /// The value that is white if `output.full_scale` is auto; 0: it follows from pings.
     double white = 0.0;
     /// The transmissions of add_behind_walls(), if the model is prepared for a scene.

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/random.h"
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/signal/echo_grid.h"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "core/random.h"
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/equation/sonar_equation.h"

@@ -22,15 +22,20 @@ std::vector<float> tables_of(std::span<const Backscatter> materials) {
     return out;
 }
 
-/// 10 log mu of Lambert's rule. Roughness adds the share of the mirrored echo that heights of the
-/// root mean square h take, at a grazing angle of 45 degrees: R (1 - exp(-2 (k h)^2)) / pi. h by
-/// the roughness that flow meets (Flack and Schultz, J. Fluids Eng. 132 (2010), 041203).
-double lambert_db_of(const Material& material, double reflection, double wavenumber) {
+/// The backscatter of a surface of facets. Heights of the root mean square h leave a mirror the
+/// share exp(-2 (k h)^2) of the reflected sound, at a grazing angle of 45 degrees, and Lambert's
+/// rule has the rest: R (1 - exp(-2 (k h)^2)) / pi more. h by the roughness that flow meets (Flack
+/// and Schultz, J. Fluids Eng. 132 (2010), 041203).
+Backscatter facets_of(const Material& material, double reflection, double wavenumber) {
     constexpr double flow_per_height = 4.43;
-    if (!material.roughness_mm) return material.lambert_db;
+    const double slope = facet_slope(material);
+    if (!material.roughness_mm) return backscatter(material.lambert_db, reflection, slope);
     const double kh = wavenumber * 1e-3 * *material.roughness_mm / flow_per_height;
-    return db_of_power(power_of_db(material.lambert_db) +
-                       reflection * (1.0 - exponential(-2.0 * kh * kh)) / pi);
+    const double mirrored = exponential(-2.0 * kh * kh);
+    Backscatter out = backscatter(material.lambert_db, mirrored * reflection, slope);
+    out.lambert += static_cast<float>(reflection * (1.0 - mirrored) / pi);
+    out.mirrored = static_cast<float>(mirrored);
+    return out;
 }
 
 }  // namespace
@@ -74,8 +79,7 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
             const double reflection = material.wall_mm
                                           ? 1.0 - wall_transmission(material, frequency_hz, water)
                                           : double{material.reflection};
-            out.materials.push_back(backscatter(lambert_db_of(material, reflection, wavenumber),
-                                                reflection, facet_slope(material)));
+            out.materials.push_back(facets_of(material, reflection, wavenumber));
         }
     }
     if (std::ranges::any_of(materials, is_sea_bed)) out.sea_beds = tables_of(out.materials);

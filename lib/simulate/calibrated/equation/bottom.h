@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
-#include <vector>
 
 #include "core/elementary.h"
 #include "input/scene/scene.h"
@@ -16,6 +14,7 @@ struct Backscatter {
     float lambert = 0.0F;         ///< mu of Lambert's rule, sigma = mu sin^2(grazing angle)
     float facet = 0.0F;           ///< sigma of the specular echo at normal incidence
     float inverse_slope2 = 0.0F;  ///< 1 / (2 s^2), s the root mean square slope of the facets
+    float mirrored = 1.0F;        ///< share of the reflected sound that roughness leaves a mirror
     /// [AngularTable::size] The parts D and K of sigma of a sea bed; empty: the above holds.
     std::vector<float> diffuse, specular;
 
@@ -26,7 +25,7 @@ struct Backscatter {
     /// The first is Lambert's rule (Mackenzie 1961), the second the high-frequency limit of the
     /// Kirchhoff integral over a surface of Gaussian slopes (e.g. Jackson and Richardson,
     /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13), with R the power reflection
-    /// times 1 - pi mu. A sea bed has D + K.
+    /// times 1 - pi mu and `mirrored`. A sea bed has D + K.
     float at(float sine) const;
 
     /// sigma for incident and scattered sound at grazing angles of these sines. Its facets face

@@ -63,9 +63,10 @@ double spreading_and_absorption_db(const ExpectedEcho& echo, double range_m) {
 /// The insonified area of the bottom.
 double cell_area_m2(const ExpectedEcho& echo, double range_m) {
     if (echo.aperture == Aperture::piston) {
-        // Limited by the beam, or by the ring that the pulse covers.
-        return std::min(echo.far_integral * range_m * range_m,
-                        2.0 * pi * range_m * echo.pulse_length_m);
+        // The beam over the ring that the pulse covers.
+        const double ring_rad = 0.5 * pi - arcsin(range_m / (range_m + echo.pulse_length_m));
+        return piston_solid_angle(echo.width_rad, std::min(echo.half_opening_rad, ring_rad)) *
+               square(range_m);
     }
     return pattern_integral(echo, range_m) * range_m * echo.pulse_length_m /
            sincos(echo.grazing_rad).cos;
@@ -108,7 +109,8 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     out.grazing_rad = radians(beam.aperture == Aperture::piston ? 90.0 : grazing_deg);
     const auto two_way = [&](double u) { return square(square(line_pattern(out.along, u))); };
     if (beam.aperture == Aperture::piston) {
-        out.far_integral = piston_solid_angle(width, 0.5 * view.elevation_rad);
+        out.width_rad = width;
+        out.half_opening_rad = 0.5 * view.elevation_rad;
     } else if (beam.aperture == Aperture::line) {
         // The transmitter is uniform in azimuth. A profiler has its elevation along a range bin.
         if (beam.elevation_width_deg > 0.0 && is_profile(view))

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/calibrated/signal/line_array.h"
@@ -32,8 +29,8 @@ struct ExpectedEcho {
     double pulse_length_m = 0.0;  ///< PulseBand::length_m
     double grazing_rad = 0.0;
     double greatest_sine = 1.0;  ///< the sine along the array at which the view ends
-    /// Integral of the two-way pattern: over the sine along the array, or over the solid angle.
-    double far_integral = 0.0;
+    double far_integral = 0.0;   ///< the two-way pattern over the sine along the array
+    double width_rad = 0.0, half_opening_rad = 0.0;  ///< the width of a disc, half its view
 };
 
 /// True for a fan so thin in elevation that it is a profiler, which stands upright.

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <vector>
 
 #include "input/mission/instrument.h"
 #include "input/mission/mission.h"

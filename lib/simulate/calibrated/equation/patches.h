@@ -1,10 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <span>
 
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/ping_motion.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "input/scene/scene.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/sonar_equation.h"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "input/mission/instrument.h"
 #include "input/scene/scene.h"
 #include "simulate/calibrated/equation/bottom.h"

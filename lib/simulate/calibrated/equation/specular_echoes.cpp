@@ -130,7 +130,7 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
 }  // namespace
 
 std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene,
-                                         ViewShape shape) {
+                                         std::span<const Backscatter> materials, ViewShape shape) {
     const std::optional<WaterMirror> water = mirror_of(scene.water_surface, traced.T_world_sensor);
     const PieceStrengths strengths(traced, scene, shape);
     std::vector<SpecularPath> paths;
@@ -140,7 +140,8 @@ std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& 
         const Sample& sample = traced.starts().items[path.sample];
         paths.push_back(specular_path(path, sample, path.by_water_surface ? &*water : nullptr));
         paths.back().sample = path.sample;
-        paths.back().reflection = scene.materials[sample.material].reflection * sample.strength *
+        paths.back().reflection = scene.materials[sample.material].reflection *
+                                  materials[sample.material].mirrored * sample.strength *
                                   strengths.at(sample) * path.water_reflection * path.strength;
     }
     return paths;

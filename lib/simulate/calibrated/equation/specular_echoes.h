@@ -1,10 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
 
 #include "input/scene/scene.h"
 #include "simulate/calibrated/equation/sonar_equation.h"
@@ -36,9 +32,9 @@ struct SpecularPath {
 /// The pieces of second surfaces that receive specular reflections of a ping's samples. With t the
 /// length of the path to p in units of |p_i|, the image of a piece lies at t p_i, and its area is
 /// A_i (v_i . n_i) t^2 / |r_i . n_h|: it receives all sound that meets the sample. The water's
-/// surface scatters nothing back. `shape`: that of the view.
+/// surface scatters nothing back. `materials`: of the scene. `shape`: that of the view.
 std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene,
-                                         ViewShape shape);
+                                         std::span<const Backscatter> materials, ViewShape shape);
 
 /// Echoes that return from another place than they were sent to; powers and bins as in PointEchoes.
 struct SpecularBlock {
@@ -54,9 +50,10 @@ struct SpecularBlock {
 ///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,
 ///
 /// in the range bin of (r + s) / 2: the reflector is assumed to be flat, so sound spreads as from
-/// the image. S is bistatic, for the two directions (Backscatter::between). Sound takes the path in
-/// both senses with the same power: out to the image and back from the piece, and the reverse. D is
-/// the transmitting pattern towards the one end times the receiving pattern towards the other.
+/// the image. R is the part of the reflection that roughness leaves a mirror. S is bistatic, for
+/// the two directions (Backscatter::between). Sound takes the path in both senses with the same
+/// power: out to the image and back from the piece, and the reverse. D is the transmitting pattern
+/// towards the one end times the receiving pattern towards the other.
 ///
 /// Returns the number of these echoes outside the range.
 std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,

@@ -27,9 +27,7 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
                       std::span<float> image) {
     std::vector<float> gains(rows.beams);
     for (int beam = 0; beam < rows.beams; ++beam) {
-        const double off = (2.0 * beam + 1.0) / rows.beams - 1.0;  // the middle of the fan: 0
-        gains[beam] = static_cast<float>(
-            power_of_db(beam_gain_db(receiver, beam, draws) - receiver.edge_loss_db * off * off));
+        gains[beam] = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws)));
     }
     for (std::size_t first = 0; first < image.size(); first += gains.size()) {
         for (std::size_t beam = 0; beam < gains.size(); ++beam)
@@ -123,11 +121,38 @@ void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span
     }
 }
 
+std::vector<float> edge_gains(const ReceiverConfig& receiver, std::span<const double> sines,
+                              double azimuth_rad) {
+    std::vector<float> gains;
+    if (!(receiver.edge_loss_db > 0.0)) return gains;
+    for (const double sine : sines) {
+        const double off = 2.0 / azimuth_rad * arcsin(std::clamp(sine, -1.0, 1.0));
+        gains.push_back(static_cast<float>(power_of_db(-receiver.edge_loss_db * off * off)));
+    }
+    return gains;
+}
+
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
     const auto channel = static_cast<std::uint32_t>(beam / receiver.channel_beams);
     const std::uint32_t word = philox({channel, 0, 0, 0}, key).x0;
     return receiver.beam_gain_db * normal_pair(word).first;
+}
+
+void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image) {
+    // Fit: ghosts of bright things in half of the training fans of an ARIS 3000.
+    constexpr float share = 1e-3F;
+    const int step = receiver.channel_beams;
+    if (step == 1) return;
+    for (std::size_t row = 0; row < image.size(); row += beams) {
+        for (int turn = 0; turn < std::min(step, beams); ++turn) {
+            float sum = 0.0F;
+            for (int beam = turn; beam < beams; beam += step)
+                sum += image[row + beam];
+            for (int beam = turn; beam < beams; beam += step)
+                image[row + beam] += share * (sum - image[row + beam]);
+        }
+    }
 }
 
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
@@ -136,8 +161,7 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
     if (receiver.interference_per_s > 0.0)
         add_interference(receiver, rows, draws.received(stream_named("interference")), image);
-    if (receiver.beam_gain_db > 0.0 || receiver.edge_loss_db > 0.0)
-        apply_beam_gains(receiver, rows, draws, image);
+    if (receiver.beam_gain_db > 0.0) apply_beam_gains(receiver, rows, draws, image);
 }
 
 std::vector<std::uint16_t> companded(std::span<const float> powers,

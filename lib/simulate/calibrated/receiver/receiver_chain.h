@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/random.h"
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/speckle/speckle.h"
@@ -26,9 +22,18 @@ struct ImageRows {
 /// Adds values to the bins of the first rows.
 void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image);
 
+/// Adds to the powers of each beam those that leak from the beams that channels receive together
+/// with it, every `channel_beams`-th: all of these are insonified at once.
+void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image);
+
 /// Adds ringing and foreign pulses, weakens pings, and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image);
+
+/// The gains for powers of echoes from directions of these sines: the lobe of an element weakens
+/// echoes towards the edges of a fan, and not the receiver's noise. Empty: none are weakened.
+std::vector<float> edge_gains(const ReceiverConfig& receiver, std::span<const double> sines,
+                              double azimuth_rad);
 
 /// The gain of a beam, dB, the same in all pings.
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws);

@@ -1,6 +1,7 @@
 #include "simulate/calibrated/signal/echo_grid.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/lanes.h"
 
@@ -56,13 +57,15 @@ std::size_t EchoGrid::occupied() const {
     return cells;
 }
 
-void EchoGrid::convolve_pulse(const RangeTaps& taps) {
+void EchoGrid::convolve_pulse(const RangeTaps& taps, std::span<const float> power_gains,
+                              bool powers) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t margin = 2 * static_cast<std::size_t>(taps.reach);
     // Whole cache lines are written; a column has room for them.
     const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
     std::vector<float> padded(lines * floats_per_line + 2 * margin);
     float* const middle = padded.data() + margin;
+    auto weights = taps.taps;
     for (int c = 0; c < columns_; ++c) {
         float* const values = column(c);
         std::copy_n(values, length, middle);
@@ -70,11 +73,16 @@ void EchoGrid::convolve_pulse(const RangeTaps& taps) {
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line)
             echoes += count_occupied(middle + i);
         if (echoes == 0) continue;
+        if (!power_gains.empty()) {
+            const float gain = powers ? power_gains[c] : std::sqrt(power_gains[c]);
+            for (std::size_t k = 0; k < weights.size(); ++k)
+                weights[k] = gain * taps.taps[k];
+        }
         for (std::size_t i = 0; i < lines * floats_per_line; i += floats_per_line) {
             Floats8 one = 0.0F;
             Floats8 other = 0.0F;
             const float* shifted = padded.data() + i;
-            for (const float tap : taps.taps) {
+            for (const float tap : weights) {
                 one = fma(tap, Floats8::load(shifted), one);
                 other = fma(tap, Floats8::load(shifted + lanes), other);
                 shifted += 2;

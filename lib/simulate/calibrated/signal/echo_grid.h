@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "simulate/calibrated/signal/range_response.h"
 
@@ -31,7 +31,8 @@ class EchoGrid {
     void add(const EchoGrid& more);
     /// The number of cells that hold an echo.
     std::size_t occupied() const;
-    void convolve_pulse(const RangeTaps& taps);
+    /// `power_gains`: by column; empty: 1.
+    void convolve_pulse(const RangeTaps& taps, std::span<const float> power_gains, bool powers);
 
   private:
     // One bin before the first takes echoes between the two; seven more fill the cache line.

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/random.h"
 #include "simulate/calibrated/signal/fourier.h"

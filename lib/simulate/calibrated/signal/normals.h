@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include "core/lanes.h"
 #include "core/random.h"
 #include "core/units.h"

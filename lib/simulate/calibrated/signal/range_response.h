@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "input/mission/instrument.h"
 #include "simulate/calibrated/signal/line_array.h"
 #include "simulate/visibility/view.h"

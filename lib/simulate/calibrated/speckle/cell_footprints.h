@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 #include "simulate/calibrated/speckle/scatterers.h"
 #include "simulate/visibility/engine.h"
 
