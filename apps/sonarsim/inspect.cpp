@@ -135,9 +135,9 @@ std::vector<std::string> questions_about(const InspectArguments& arguments, cons
     std::vector<std::string> questions;
     if (file.heightmap) return questions;
     const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
-    const std::string units = arguments.read_as.units.empty()
-                                  ? unit_question(length_m, file.unit_m, usual_range_m, long_object)
-                                  : "";
+    const bool has_unit = !arguments.read_as.units.empty() || !is_mesh_file(arguments.scene);
+    const std::string units =
+        !has_unit ? unit_question(length_m, file.unit_m, usual_range_m, long_object) : "";
     if (!units.empty()) questions.push_back("it is " + units);
     const std::string up = up_question(file, surface_of(file, models));
     if (!up.empty()) questions.push_back(up);

@@ -116,7 +116,9 @@ ReadMesh read_as_meant(const NewArguments& arguments) {
     mesh.scene = load_scene_geometry(as_gltf, models);
     if (mesh.scene.triangles.empty()) throw InputError({path.string()}, "has no triangles");
     const double length_m = (mesh.scene.bounds_max - mesh.scene.bounds_min).maxCoeff();
-    const std::string unit = arguments.read_as.units.empty()
+    // A glTF file is in metres with y up, unless options say otherwise.
+    const bool has_unit = !arguments.read_as.units.empty();
+    const std::string unit = !has_unit && is_mesh_file(path)
                                  ? unit_question(length_m, 1.0, usual_range_m, long_object)
                                  : "";
     const std::string up =
@@ -127,11 +129,10 @@ ReadMesh read_as_meant(const NewArguments& arguments) {
     if (!up.empty()) mesh.guesses.push_back(up);
     if (up.empty() && arguments.read_as.up.empty() && is_mesh_file(path))
         mesh.guesses.push_back("y points up; if the file's z does, give --up z");
-    if (!unit.empty() || is_mesh_file(path))
-        mesh.keys = ", units: " + (!arguments.read_as.units.empty() ? arguments.read_as.units
-                                   : unit.empty()                   ? "m"
-                                                                    : "mm");
-    if (is_mesh_file(path)) mesh.keys += mesh.config.up == UpAxis::y ? ", up: y" : ", up: z";
+    if (has_unit || is_mesh_file(path))
+        mesh.keys = ", units: " + (has_unit ? arguments.read_as.units : unit.empty() ? "m" : "mm");
+    if (!arguments.read_as.up.empty() || is_mesh_file(path))
+        mesh.keys += mesh.config.up == UpAxis::y ? ", up: y" : ", up: z";
     mesh.config.up_given = true;
     if (!unit.empty() || !up.empty())
         mesh.scene = load_scene_geometry(file_of(path, mesh.config, {}), models);

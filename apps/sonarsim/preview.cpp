@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "mission_options.h"
 #include "output/format/png.h"
 #include "run/checks/find_warnings.h"
@@ -45,6 +46,8 @@ int preview(const PreviewArguments& arguments) {
     const std::filesystem::path out = arguments.out.empty()
                                           ? std::filesystem::path(mission.name + "_preview.png")
                                           : arguments.out;
+    if (in_lower_case(out.extension().string()) != ".png")
+        throw InputError({out.string()}, "does not end with .png, as the picture is a PNG");
     const auto [picture, beams] = draw_preview(mission, assembly, pose);
     write_picture(out, picture.pixels, picture.width);
     if (!arguments.gltf.empty()) {

@@ -109,6 +109,8 @@ class New(Sandbox):
         text = self.assert_a_mission("ark.glb", "size        6 x 4 x 2 m, read as", "position_m: [-30.000, -4.000, 0]",
                                      "Steel,7850,5890,")
         self.assertNotIn("units", text)
+        self.succeeds("new", "ark.glb", "--out", "turned.yaml", "--units", "km", "--up", "z")
+        self.assertIn("units: km, up: z", (self.folder / "turned.yaml").read_text())
 
     def test_any_name_of_a_file(self):
         """`look_at` splits at commas, the ground and classes have names of their own, and YAML has its signs."""

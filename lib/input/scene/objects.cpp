@@ -95,6 +95,11 @@ bool fits_any(std::span<const std::string> patterns, std::string_view text) {
         patterns, [&](const std::string& pattern) { return fits_pattern(pattern, text); });
 }
 
+bool fits_instance(std::span<const std::string> patterns, const Scene& scene, std::size_t i) {
+    return fits_any(patterns, scene.instances[i]) ||
+           (i < scene.own_nodes.size() && fits_any(patterns, scene.own_nodes[i]));
+}
+
 SceneObjects group_objects(const Scene& scene, std::span<const ClassConfig> rules,
                            const PossibleObjects& possible) {
     const NamedInstances instances = all_instances(scene, possible);

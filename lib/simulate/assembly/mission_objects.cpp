@@ -42,8 +42,7 @@ void add_bottom(const Mission& mission, const Scene& scene, const SceneObjects& 
                 std::vector<std::uint8_t>& background) {
     const std::vector<std::string> bottom = bottom_patterns(mission.scene);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        if (fits_any(bottom, scene.instances[i]))
-            background[objects.class_of(objects.object_of(i))] = 1;
+        if (fits_instance(bottom, scene, i)) background[objects.class_of(objects.object_of(i))] = 1;
     }
 }
 

@@ -73,10 +73,24 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     scene.bounds_max = scene.origin + box.max();
 }
 
+/// True if the name of a mesh or of its node, also before it was made unique, fits a pattern.
+bool is_named(const PlacedMesh& mesh, std::span<const std::string> patterns) {
+    return std::ranges::any_of(
+        std::array{&mesh.instance, &mesh.own_name, &mesh.node, &mesh.own_node},
+        [&](const std::string* name) { return fits_any(patterns, *name); });
+}
+
 /// True if all of the mesh's instance is the bottom.
 bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
     if (!file.bottom) return false;
-    return file.bottom->empty() || (file.name.empty() && fits_any(*file.bottom, mesh.node));
+    return file.bottom->empty() || (file.name.empty() && is_named(mesh, *file.bottom));
+}
+
+/// The class that a file gives to a mesh; "": that of its name. Equal names are of one class.
+std::string class_of(const PlacedFile& file, const PlacedMesh& mesh) {
+    if (!file.class_name.empty()) return file.class_name;
+    if (!mesh.label.empty() || mesh.instance == mesh.own_name) return mesh.label;
+    return without_copy_number(mesh.own_name);
 }
 
 /// Opens the files and appends the names and classes of their instances to those of `scene`. Names
@@ -107,8 +121,8 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
             if (!is_part) {
                 scene.instances.push_back(mesh.instance);
-                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
-                                                                         : file.class_name);
+                scene.own_nodes.push_back(mesh.own_node);
+                scene.instance_classes.push_back(class_of(file, mesh));
                 scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
             }
             next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
@@ -267,16 +281,15 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
     open.meshes = place_meshes(*open.model, by_node, names);
     for (const std::string& pattern : nodes) {
         if (std::ranges::any_of(open.meshes, [&](const PlacedMesh& mesh) {
-                return fits_pattern(pattern, mesh.instance);
+                return is_named(mesh, {&pattern, 1});
             }))
             continue;
         refuse(file.place,
                "bottom: no node of {} fits '{}'; `sonarsim inspect` lists the names of its nodes",
                file.file.string(), pattern);
     }
-    std::erase_if(open.meshes, [&](const PlacedMesh& mesh) {
-        return !nodes.empty() && !fits_any(nodes, mesh.instance);
-    });
+    std::erase_if(open.meshes,
+                  [&](const PlacedMesh& mesh) { return !nodes.empty() && !is_named(mesh, nodes); });
     open.instance_of_mesh.assign(open.meshes.size(), 0);
     Surface surface;
     SceneRejects rejects;

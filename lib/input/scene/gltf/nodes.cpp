@@ -182,6 +182,7 @@ void add_parts(const PlacedMesh& whole, const PlacedFile& file, const tinygltf::
     for (const auto& [material, name] : parts) {
         PlacedMesh& part = placed.emplace_back(whole);
         part.instance = names.unique(whole.node + "." + name);
+        part.own_name = whole.own_name + "." + name;
         part.materials = {material};
     }
 }
@@ -207,7 +208,8 @@ void place_node(const Graph& graph, int index, const PlacedMesh& above, const Pl
     if (node.mesh >= 0) {
         check_rigid(graph, index);
         own.mesh = node.mesh;
-        own.node = file.name.empty() ? names.unique(graph.name(index)) : file.name;
+        own.own_name = own.own_node = file.name.empty() ? graph.name(index) : file.name;
+        own.node = file.name.empty() ? names.unique(own.own_name) : file.name;
         own.instance = own.node;
         add_parts(own, file, graph.model, names, placed);
     }

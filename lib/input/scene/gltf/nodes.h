@@ -27,6 +27,8 @@ struct PlacedMesh {
     std::string material;          ///< extras.sonar.material of the node or an ancestor; "": none
     std::string label;             ///< extras.sonar.class, inherited in the same way
     std::string instance;          ///< `node`, or of a part NODE.MATERIAL
+    std::string own_name;          ///< `instance` before names were made unique
+    std::string own_node;          ///< `node` before
     std::set<int> materials = {};  ///< the glTF materials of its primitives; empty: all
 };
 

@@ -243,6 +243,9 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     // tinygltf continues after some errors, and quotes whole data URIs in its messages.
     if (!is_read || !error.empty()) refuse(where, "is not a valid glTF: {}", error.substr(0, 300));
     check_extras(model, where);
+    // A CSV trims the names of its materials, too.
+    for (tinygltf::Material& material : model.materials)
+        material.name = std::string(trim(material.name));
     return model;
 }
 

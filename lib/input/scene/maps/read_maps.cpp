@@ -147,7 +147,7 @@ std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
     }
     std::vector<char> on(scene.instances.size(), 0);
     for (std::size_t i = 0; i < on.size(); ++i)
-        on[i] = fits_any(patterns, scene.instances[i]);
+        on[i] = fits_instance(patterns, scene, i);
     for (const Body& body : scene.bodies)
         on[body.instance] = 0;
     return on;

@@ -153,7 +153,8 @@ std::string_view whole_stl(std::string& text, const Location& where) {
     const std::size_t size = head + triangle_bytes * claimed;
     // Binary files may begin with "solid", too: then the claimed size decides.
     std::string_view rest = bytes;
-    const bool may_be_text = take_word(rest) == "solid";
+    const bool may_be_text =
+        take_word(rest) == "solid" && bytes.substr(0, head).find('\0') == std::string_view::npos;
     if (may_be_text && size != bytes.size()) {
         if (bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 4096))
                 .rfind("endsolid") == std::string_view::npos)

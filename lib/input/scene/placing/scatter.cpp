@@ -39,10 +39,15 @@ std::size_t one_of(std::size_t count, const ObjectDraws& draws, Draw what) {
 
 std::size_t count_of(const ScatterConfig& rule, std::uint64_t seed, std::uint32_t rule_index) {
     constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
+    const ObjectDraws draws = draws_of(seed, rule_index, rule_count_key);
+    if (rule.density_per_m2[1] > 0.0) {
+        // The fraction of the drawn mean is the probability of one more.
+        const double mean = rule.area_m2() * draws.in(rule.density_per_m2, Draw::count);
+        return static_cast<std::size_t>(mean + draws.unit(Draw::share));
+    }
     const auto min_count = static_cast<std::size_t>(rule.count[0]);
     const auto max_count = static_cast<std::size_t>(rule.count[1]);
-    return min_count + one_of(max_count - min_count + 1, draws_of(seed, rule_index, rule_count_key),
-                              Draw::count);
+    return min_count + one_of(max_count - min_count + 1, draws, Draw::count);
 }
 
 constexpr int max_tries = 1000;  // positions for each object
@@ -224,7 +229,7 @@ std::vector<ScatteredObject> scatter(const ScatterConfig& rule,
                    "bury_m",
                    printable(rule.name), i + 1, max_redraws);
         }
-        if (!rule.overlap) taken.add(std::move(placed->ground));
+        taken.add(std::move(placed->ground));
         objects.push_back(placed->object);
     }
     return objects;
