@@ -269,6 +269,8 @@ class PingDraws(Sandbox):
             vehicle, sensor = (meta[f"T_world_{what}"]["quaternion_xyzw"] for what in ("vehicle", "sensor"))
             angle = 2 * math.degrees(math.acos(min(1.0, abs(sum(a * b for a, b in zip(vehicle, sensor))))))
             self.assertAlmostEqual(angle, abs(meta["drawn"][self.KEYS[3]]), places=4)
+        self.assert_renders("--set", f"{self.KEYS[2]}=0.125", "--out", "fixed")
+        self.assertEqual(self.json("fixed/fls/meta/000003.json")["drawn"], metas[3]["drawn"] | {self.KEYS[2]: 0.125})
         # Shards, and the dataset's own mission; tests/golden has any number of threads.
         self.assert_shards_agree()
         self.succeeds("render", "out/mission.resolved.yaml", "--paths-from", ".", "--out", "again")

@@ -1,7 +1,5 @@
 #include "output/format/png.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include "core/hash.h"
 #include "support/images.h"
 

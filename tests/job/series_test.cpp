@@ -1,4 +1,3 @@
-#include <OpenImageIO/imageio.h>
 
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"

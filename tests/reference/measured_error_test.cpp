@@ -170,7 +170,7 @@ TEST_CASE("measured errors: only what is measured is warned of, in digits as peo
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].what.find("3.4 % at pose 6; accuracy.relative_l1 asks for 3 %") !=
           std::string::npos);
-    CHECK(warnings[0].cure == "lower accuracy.relative_l1 to 0.026");
+    CHECK(warnings[0].cure == "lower accuracy.relative_l1 to 0.015");
 }
 
 // On drawn meshes, against the truth by many more rays of other casts.

@@ -17,12 +17,18 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 
+void fix_rules_of_pings(YamlNode& root, std::string_view setting);
+
 YamlNode document_of(std::string_view text, const std::string& file_name,
+                     const std::filesystem::path& base_folder,
                      std::span<const std::string> overrides, Lines lines = Lines::counted) {
     if (text.size() > largest_file) refuse({file_name}, "is larger than 1 MiB");
     YamlNode root = read_document(text, file_name, lines);
     for (const std::string& setting : overrides)
         apply_override(root, setting);
+    if (!overrides.empty()) fill_in_rules(root, base_folder);
+    for (const std::string& setting : overrides)
+        fix_rules_of_pings(root, setting);
     return root;
 }
 
@@ -118,12 +124,38 @@ void assign(YamlNode& root, const std::vector<std::string>& path, YamlNode value
     *node = std::move(value);
 }
 
+/// Rules that draw what a setting fixes for every ping draw its value alone. They stay in their
+/// places, since the draws of the others follow from these.
+void fix_rules_of_pings(YamlNode& root, std::string_view setting) {
+    YamlNode* const rules = root.find("vary");
+    if (rules == nullptr) return;
+    for (YamlNode& rule : rules->items) {
+        const YamlNode* const per = rule.find("per");
+        const YamlNode* const key = rule.find("key");
+        if (per == nullptr || per->text != "ping" || key == nullptr) continue;
+        if (!is_within(key->text, setting.substr(0, setting.find('=')))) continue;
+        const YamlNode* value = &root;
+        for (const std::string& name : split_path(key->text, key->place, usage_of_key))
+            value = value != nullptr ? item_of(*value, name) : nullptr;
+        if (value == nullptr) continue;
+        YamlNode choice = rule;
+        choice.kind = YamlNode::Kind::list;
+        choice.key = "choice";
+        choice.items.assign(1, *value);
+        choice.items.front().key.clear();
+        std::erase_if(rule.items,
+                      [](const YamlNode& item) { return item.key != "key" && item.key != "per"; });
+        rule.items.push_back(std::move(choice));
+    }
+}
+
 }  // namespace
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,
                       std::span<const std::string> overrides, SonarKeyTable sonars) {
-    return parse_mission(document_of(text, file_name, overrides), file_name, base_folder, sonars);
+    return parse_mission(document_of(text, file_name, base_folder, overrides), file_name,
+                         base_folder, sonars);
 }
 
 YamlNode read_mission_document(const MissionSource& source) {
@@ -133,8 +165,9 @@ YamlNode read_mission_document(const MissionSource& source) {
         if (!source.text && ending == mesh)
             refuse({name}, "is a mesh; `sonarsim new {}` writes a mission around it", name);
     }
-    if (source.text) return document_of(*source.text, name, source.overrides, Lines::none);
-    return document_of(read_file(source.file, largest_file), name, source.overrides);
+    const std::filesystem::path& folder = source.base_folder;
+    if (source.text) return document_of(*source.text, name, folder, source.overrides, Lines::none);
+    return document_of(read_file(source.file, largest_file), name, folder, source.overrides);
 }
 
 Mission load_mission(const MissionSource& source, SonarKeyTable sonars) {

@@ -90,6 +90,11 @@ struct ScatterConfig {
     bool align = false;
     Location place = {};
 
+    /// The size of the area, if it is given.
+    double area_m2() const {
+        return ((*area_max_m)[0] - (*area_min_m)[0]) * ((*area_max_m)[1] - (*area_min_m)[1]);
+    }
+
     /// The class of the objects of a file.
     const std::string& class_of(std::size_t file) const {
         if (!class_name.empty()) return class_name;

@@ -152,10 +152,8 @@ void complete_scatter(SceneConfig& scene) {
     for (ScatterConfig& rule : scene.scatter) {
         if (!rule.area_min_m) set_area(scene, rule);
         if (rule.density_per_m2[1] == 0.0) continue;
-        const double area_m2 = ((*rule.area_max_m)[0] - (*rule.area_min_m)[0]) *
-                               ((*rule.area_max_m)[1] - (*rule.area_min_m)[1]);
-        rule.count = {std::floor(rule.density_per_m2[0] * area_m2),
-                      std::ceil(rule.density_per_m2[1] * area_m2)};
+        rule.count = {std::floor(rule.density_per_m2[0] * rule.area_m2()),
+                      std::ceil(rule.density_per_m2[1] * rule.area_m2())};
         if (rule.count[1] > 1e5) {
             refuse(rule.place,
                    "'{}' is more than 100,000 objects; lower density_per_m2 or take a smaller area",

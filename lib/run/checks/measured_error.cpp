@@ -115,12 +115,12 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
 std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
     constexpr const char* another = "use the engine with the least error in `sonarsim report`";
-    // Errors fall about as fast as the goal.
+    // Errors fall about as fast as the goal, or more slowly. A step below half is rounded away.
     const double goal = mission.accuracy.relative_l1;
     const double finest =
         mission.engine == EngineKind::rays ? AccuracyConfig::min_relative_l1 : finest_goal;
     if (goal <= finest) return another;
-    const double lower = std::max(goal * goal / worst, finest);
+    const double lower = std::max(std::min(goal * goal / worst, 0.5 * goal), finest);
     return "lower accuracy.relative_l1 to " + short_text(lower) +
            (mission.engine == EngineKind::automatic ? "" : std::string(", or ") + another);
 }

@@ -108,9 +108,10 @@ bool faces_up(const Scene& scene) {
 }
 
 /// True if an instance surrounds a point with faces that look away from it, as a hull does: the
-/// solid angle of its triangles sums to the whole sphere, and to 0 or less in a basin. Van Oosterom
-/// and Strackee, IEEE Trans. Biomed. Eng. 30 (1983), eq. 8.
-bool is_inside_solid(const Scene& scene, std::size_t instance, const Eigen::Vector3d& point) {
+/// solid angle of its triangles sums to the whole sphere, of which it needs a share, and to 0 or
+/// less in a basin. Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983), eq. 8.
+bool is_inside_solid(const Scene& scene, std::size_t instance, const Eigen::Vector3d& point,
+                     double share) {
     const Eigen::Vector3d at = point - scene.origin;
     double solid_angle = 0.0;
     for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
@@ -123,7 +124,7 @@ bool is_inside_solid(const Scene& scene, std::size_t instance, const Eigen::Vect
                                         a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
                                             b.dot(c) * a.norm() + c.dot(a) * b.norm());
     }
-    return solid_angle > 2.0 * pi;
+    return solid_angle > 4.0 * pi * share;
 }
 
 /// Counts the pose if no vehicle can be there. docs/warnings.md gives the reasons for the limits.
@@ -144,11 +145,15 @@ void check_position(const Scene& scene, bool open_upwards,
     // Below a sea floor, and below a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto largest = std::ranges::max_element(met);
-    if (met.empty() || 100 * *largest < 98 * around.size()) return;
+    // The bottom below or within an object that rests on it is met in some directions.
+    if (met.empty() || 100 * *largest < 60 * around.size()) return;
     const auto instance = static_cast<std::size_t>(largest - met.begin());
     if (boxes[instance].isEmpty()) return;
-    if (holds_all(boxes[instance], scene) &&
-        !is_inside_solid(scene, instance, T_world_sensor.translation))
+    const bool has_all = holds_all(boxes[instance], scene);
+    const bool is_surrounded = 100 * *largest >= 98 * around.size();
+    if (!is_surrounded && has_all) return;
+    if ((!is_surrounded || has_all) &&
+        !is_inside_solid(scene, instance, T_world_sensor.translation, is_surrounded ? 0.5 : 0.95))
         return;
     ++out.enclosed;
     out.enclosed_by = scene.instances[instance];

@@ -72,17 +72,17 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
     return 2.0 * arctan2(sine, q.w()) / sine * q.vec();
 }
 
-/// The motion of a sonar at a pose: the difference of the neighbouring poses over that in time.
+/// The motion of a sonar at a pose: the difference of the neighbouring poses over that in time. A
+/// neighbour that is more than `gap` times as far in time as the other one is left out.
 PingMotion motion_at(const Trajectory& trajectory, std::uint32_t pose, const Sonar& sonar,
-                     double sound_speed_m_s, bool has_gaps) {
+                     double sound_speed_m_s, double gap) {
     const auto* before = &trajectory[pose > 0 ? pose - 1 : 0];
     const auto* after = &trajectory[std::min<std::size_t>(pose + 1, trajectory.size() - 1)];
     const double before_s = trajectory[pose].t_s - before->t_s;
     const double after_s = after->t_s - trajectory[pose].t_s;
-    constexpr double rounding = 1e-6;
-    if (has_gaps && after_s > 0.0 && before_s > (1.0 + rounding) * after_s)
+    if (after_s > 0.0 && before_s > gap * after_s)
         before = &trajectory[pose];
-    else if (has_gaps && before_s > 0.0 && after_s > (1.0 + rounding) * before_s)
+    else if (before_s > 0.0 && after_s > gap * before_s)
         after = &trajectory[pose];
     const double dt = after->t_s - before->t_s;
     if (!(dt > 0.0)) return {};
@@ -206,12 +206,16 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
         refuse_if(vehicle_varies_by_ping(mission),
                   "moves_in_ping takes speeds from successive poses, and `vary` draws a new offset "
                   "or turn of the vehicle for each; leave out one");
+        // There are gaps between two lines, and in records, whose times are uneven, too.
         const auto* lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
-        const bool has_gaps = lines && !lines->turns;  // between the poses of two lines
+        const auto* file = std::get_if<FileTrajectoryConfig>(&mission.trajectory);
+        const double gap = lines && !lines->turns         ? 1.0 + 1e-6
+                           : file && file->rate_hz == 0.0 ? 2.0
+                                                          : std::numeric_limits<double>::infinity();
         std::vector<PingMotion> motions;
         for (std::uint32_t pose = 0; pose < trajectory.size(); ++pose) {
             const SonarAtPose then(mission, sonar, pose);
-            motions.push_back(motion_at(trajectory, pose, *then, sound_speed_m_s, has_gaps));
+            motions.push_back(motion_at(trajectory, pose, *then, sound_speed_m_s, gap));
             motions.back().measures_direction = sonar.head_angles_rad.empty();
         }
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));

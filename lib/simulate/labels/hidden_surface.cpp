@@ -1,8 +1,6 @@
 #include "simulate/labels/hidden_surface.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "simulate/trace/visible_water_surface.h"

@@ -72,16 +72,23 @@ std::vector<int> MaskWindow::flood(int k, float value, bool diagonal) {
 std::vector<MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
                                    std::span<const std::uint16_t> ids) {
     std::map<std::uint16_t, MaskWindow> boxes;
-    for (int line = 0; line < frame.lines; ++line) {
-        const std::span<const std::uint16_t> line_objects =
-            ids.subspan(static_cast<std::size_t>(line) * frame.bins, frame.bins);
-        for (int bin = 0; bin < frame.bins; ++bin) {
-            if (line_objects[bin] == 0) continue;
-            const std::uint16_t id = line_objects[bin];
-            MaskWindow& box = boxes.try_emplace(id, MaskWindow{id, line, bin}).first->second;
-            box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
-            box.bin = std::min(box.bin, bin);
-            box.lines = line + 1 - box.line;
+    const auto add = [&](std::uint16_t id, int line, int bin) {
+        if (id == 0) return;
+        MaskWindow& box = boxes.try_emplace(id, MaskWindow{id, line, bin}).first->second;
+        box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
+        box.bin = std::min(box.bin, bin);
+        box.lines = line + 1 - box.line;
+    };
+    // Most bins are empty, and the loop over a stretch vectorises.
+    constexpr std::size_t stretch = 64;
+    for (std::size_t first = 0; first < ids.size(); first += stretch) {
+        const std::span some = ids.subspan(first, std::min(stretch, ids.size() - first));
+        std::uint16_t any = 0;
+        for (const std::uint16_t id : some)
+            any |= id;
+        for (std::size_t k = 0; any != 0 && k < some.size(); ++k) {
+            const auto at = static_cast<int>(first + k);
+            add(some[k], at / frame.bins, at % frame.bins);
         }
     }
     const int more_lines = 2 * reach.lines + 1;

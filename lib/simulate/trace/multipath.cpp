@@ -213,6 +213,7 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
     counts.clusters = clusters.size();
 
     std::vector<BouncePath> bounces = follow_all(context, clusters, counts);
+    counts.bounces = std::ranges::count(bounces, false, &BouncePath::scattered);
     if (mirror) {
         // A sample is counted once, for its path without a reflection at the water's surface.
         MultipathCounts surface_counts;
@@ -221,7 +222,6 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
         bounces.insert(bounces.end(), more.begin(), more.end());
         counts.rays += surface_counts.rays;
     }
-    counts.bounces = std::ranges::count(bounces, false, &BouncePath::scattered);
     return bounces;
 }
 
