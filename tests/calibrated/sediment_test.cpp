@@ -102,12 +102,10 @@ TEST_CASE("bottom: Lambert's rule away from normal incidence, facets near it") {
     CHECK(std::fabs(sand.at(1.0F) / (mu + 0.1 * (1.0 - pi * mu) / (8.0 * pi * s2)) - 1.0) < 1e-5);
     CHECK(backscatter(-4.0, 0.9, 0.1).facet == 0.0F);
     // Roughness moves reflected sound from facets to Lambert's rule, pi mu of it, and loses none.
-    Material steel{.name = "steel", .reflection = 0.88F, .lambert_db = -300.0};
-    steel.slope_rms_deg = 4.0;
+    Material steel{.name = "steel", .reflection = 0.88F, .lambert_db = -300, .slope_rms_deg = 4.0};
     steel.roughness_mm = 0.3;
     const Backscatter rough = scattering_of({&steel, 1}, 1.2e6, Water()).materials[0];
-    const double facets =
-        static_cast<double>(rough.facet) * 8.0 * pi * std::pow(std::tan(radians(4.0)), 2.0);
+    const double facets = rough.facet * 8.0 * pi * std::pow(std::tan(radians(4.0)), 2.0);
     CHECK(facets + pi * static_cast<double>(rough.lambert) == approx(0.88).epsilon(1e-4));
     CHECK(static_cast<double>(rough.mirrored) * 0.88 == approx(facets).epsilon(1e-4));
 }

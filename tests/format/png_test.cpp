@@ -1,5 +1,7 @@
 #include "output/format/png.h"
 
+#include <OpenImageIO/imageio.h>
+
 #include "core/hash.h"
 #include "support/images.h"
 

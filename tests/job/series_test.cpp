@@ -1,3 +1,4 @@
+#include <OpenImageIO/imageio.h>
 
 #include "output/dataset/strip_rows.h"
 #include "output/dataset/writer.h"
