@@ -12,20 +12,14 @@ import sys
 
 # The doors of lib/ from the bottom up, and the folders behind them. core is a door and a folder.
 DOORS = {
-    "core": ("core",),
-    "input": ("mission", "scene", "trajectory"),
+    "core": ("core",), "input": ("mission", "scene", "trajectory"),
     "simulate": ("water", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product", "sonar", "assembly",
                  "reference"),
-    "output": ("format", "dataset"),
-    "run": ("checks", "job", "report", "preview")}
+    "output": ("format", "dataset"), "run": ("checks", "job", "report", "preview")}
 DOOR_OF = {folder: door for door, folders in DOORS.items() for folder in folders}
 # The folders of lib/ with the folders that each includes.
 ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
-    "core": "",
-    "mission": "core",
-    "water": "core",
-    "scene": "core mission",
-    "trajectory": "core mission",
+    "core": "", "mission": "core", "water": "core", "scene": "core mission", "trajectory": "core mission",
     "visibility": "core water scene", "trace": "core water scene visibility",
     "paper": "core mission scene visibility trace", "calibrated": "core mission scene visibility trace",
     "ping": "core mission water trace", "labels": "core scene visibility trace ping",
@@ -45,8 +39,7 @@ assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
-    "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
-                ["encode_ping"]],
+    "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"], ["encode_ping"]],
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
             ["run_job", "ping_source"], ["variants"], ["dataset_folders"], ["merge", "status", "verify"]],
     "calibrated": [["signal/"], ["equation/"], ["beams/", "speckle/"], ["receiver/"], ["*"]],

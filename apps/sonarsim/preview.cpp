@@ -32,6 +32,8 @@ Mission load_one(const MissionOptions& options) {
 }
 
 int preview(const PreviewArguments& arguments) {
+    if (!arguments.out.empty() && in_lower_case(arguments.out.extension().string()) != ".png")
+        throw InputError({arguments.out.string()}, "is a PNG; give a name that ends with .png");
     Mission mission = load_one(arguments.mission);
     // The brightness is that of the preview's own pings: to find the dataset's takes too long.
     mission.output.full_scale = 1.0;
@@ -46,8 +48,6 @@ int preview(const PreviewArguments& arguments) {
     const std::filesystem::path out = arguments.out.empty()
                                           ? std::filesystem::path(mission.name + "_preview.png")
                                           : arguments.out;
-    if (in_lower_case(out.extension().string()) != ".png")
-        throw InputError({out.string()}, "does not end with .png, as the picture is a PNG");
     const auto [picture, beams] = draw_preview(mission, assembly, pose);
     write_picture(out, picture.pixels, picture.width);
     if (!arguments.gltf.empty()) {

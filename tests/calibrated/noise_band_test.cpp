@@ -1,4 +1,5 @@
 #include "core/decibel.h"
+#include "simulate/calibrated/signal/filtered_noise.h"
 #include "simulate/calibrated/signal/range_response.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
@@ -59,6 +60,7 @@ struct NoiseOfPings {
 // The correlation behind a matched filter is the pulse, whose spectrum is the noise's power.
 TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
     constexpr double unit = 1e-3;  // a width in sines that stands for that of the pulse
+    CHECK(noise_taps(0.3, -30.0) == std::vector<float>{1.0F});  // shorter than a bin: white
     for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
         for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
             CAPTURE_ALL(bins, side_lobe_db);
@@ -74,6 +76,17 @@ TEST_CASE("noise: its taps give it the correlation of the pulse and keep the pow
             }
         }
     }
+}
+
+TEST_CASE("noise: that of a bin does not depend on the bins before it") {
+    const std::vector<float> taps = noise_taps(5.0, -25.0);
+    const NoiseChannels channels{.firsts = 4, .seconds = 3};
+    FilteredNoise all(channels, taps, {11, 12}), one(channels, taps, {11, 12});
+    for (int row = 0; row <= 40; row += lanes)
+        all.go_to(row);
+    one.go_to(40);
+    for (int channel = 0; channel < channels.count(); ++channel)
+        CHECK(all.of(channel).re == one.of(channel).re);
 }
 
 // The powers of Gaussian amplitudes have the square of the amplitudes' correlation (Siegert's

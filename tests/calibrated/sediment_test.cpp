@@ -106,8 +106,8 @@ TEST_CASE("bottom: Lambert's rule away from normal incidence, facets near it") {
     steel.roughness_mm = 0.3;
     const Backscatter rough = scattering_of({&steel, 1}, 1.2e6, Water()).materials[0];
     const double facets = rough.facet * 8.0 * pi * std::pow(std::tan(radians(4.0)), 2.0);
-    CHECK(facets + pi * static_cast<double>(rough.lambert) == approx(0.88).epsilon(1e-4));
-    CHECK(static_cast<double>(rough.mirrored) * 0.88 == approx(facets).epsilon(1e-4));
+    CHECK(facets + pi * rough.lambert == approx(0.88).epsilon(1e-4));
+    CHECK(rough.mirrored * 0.88 == approx(facets).epsilon(1e-4));
 }
 
 TEST_CASE("bottom: exp_neg is e^-x") {

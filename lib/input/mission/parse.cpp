@@ -17,21 +17,6 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 
-void fix_rules_of_pings(YamlNode& root, std::string_view setting);
-
-YamlNode document_of(std::string_view text, const std::string& file_name,
-                     const std::filesystem::path& base_folder,
-                     std::span<const std::string> overrides, Lines lines = Lines::counted) {
-    if (text.size() > largest_file) refuse({file_name}, "is larger than 1 MiB");
-    YamlNode root = read_document(text, file_name, lines);
-    for (const std::string& setting : overrides)
-        apply_override(root, setting);
-    if (!overrides.empty()) fill_in_rules(root, base_folder);
-    for (const std::string& setting : overrides)
-        fix_rules_of_pings(root, setting);
-    return root;
-}
-
 bool is_within(std::string_view key, std::string_view section) {
     return key == section || (key.starts_with(section) && key[section.size()] == '.');
 }
@@ -133,7 +118,7 @@ void fix_rules_of_pings(YamlNode& root, std::string_view setting) {
         const YamlNode* const per = rule.find("per");
         const YamlNode* const key = rule.find("key");
         if (per == nullptr || per->text != "ping" || key == nullptr) continue;
-        if (!is_within(key->text, setting.substr(0, setting.find('=')))) continue;
+        if (!is_fixed_by(key->text, setting)) continue;
         const YamlNode* value = &root;
         for (const std::string& name : split_path(key->text, key->place, usage_of_key))
             value = value != nullptr ? item_of(*value, name) : nullptr;
@@ -149,7 +134,24 @@ void fix_rules_of_pings(YamlNode& root, std::string_view setting) {
     }
 }
 
+YamlNode document_of(std::string_view text, const std::string& file_name,
+                     const std::filesystem::path& base_folder,
+                     std::span<const std::string> overrides, Lines lines = Lines::counted) {
+    if (text.size() > largest_file) refuse({file_name}, "is larger than 1 MiB");
+    YamlNode root = read_document(text, file_name, lines);
+    for (const std::string& setting : overrides)
+        apply_override(root, setting);
+    if (!overrides.empty()) fill_in_rules(root, base_folder);
+    for (const std::string& setting : overrides)
+        fix_rules_of_pings(root, setting);
+    return root;
+}
+
 }  // namespace
+
+bool is_fixed_by(std::string_view key, std::string_view setting) {
+    return is_within(key, setting.substr(0, setting.find('=')));
+}
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,

@@ -49,6 +49,9 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
 /// or the value cannot be read, or when the path leads through a value that is not a section.
 void apply_override(YamlNode& root, const std::string& setting);
 
+/// True if the setting fixes a key: it sets the key, or a section around it.
+bool is_fixed_by(std::string_view key, std::string_view setting);
+
 /// Sets the value at the path "a.b.c" in the same way, from YAML text; `where` becomes its place.
 void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where);

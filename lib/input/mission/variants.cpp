@@ -18,8 +18,7 @@ constexpr std::uint32_t no_sensor = 0xFFFFFFFFU;
 /// True if a setting of the command line fixes the key of a rule, or a section around it.
 bool is_fixed(const VaryConfig& rule, const MissionSource& source) {
     return std::ranges::any_of(source.overrides, [&](const std::string& setting) {
-        const std::string key = setting.substr(0, setting.find('='));
-        return rule.key == key || rule.key.starts_with(key + ".");
+        return is_fixed_by(rule.key, setting);
     });
 }
 

@@ -97,7 +97,7 @@ bool fits_any(std::span<const std::string> patterns, std::string_view text) {
 
 bool fits_instance(std::span<const std::string> patterns, const Scene& scene, std::size_t i) {
     return fits_any(patterns, scene.instances[i]) ||
-           (i < scene.own_nodes.size() && fits_any(patterns, scene.own_nodes[i]));
+           (i < scene.own_names.size() && fits_any(patterns, scene.own_names[i]));
 }
 
 SceneObjects group_objects(const Scene& scene, std::span<const ClassConfig> rules,

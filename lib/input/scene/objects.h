@@ -39,7 +39,7 @@ bool fits_pattern(std::string_view pattern, std::string_view text);
 /// True if `text` matches one of the patterns.
 bool fits_any(std::span<const std::string> patterns, std::string_view text);
 
-/// True if the name of an instance, or of its node in the file, matches one of the patterns.
+/// True if the name of an instance, also as its file has it, matches one of the patterns.
 bool fits_instance(std::span<const std::string> patterns, const Scene& scene, std::size_t i);
 
 /// Groups the instances of a scene into objects. The first rule that matches a node applies to it.

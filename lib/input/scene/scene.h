@@ -106,7 +106,7 @@ struct Scene {
     std::vector<MeshCopy> copies;               ///< their triangles are not in `triangles` either
     std::vector<Material> materials;            ///< used by its surfaces and maps
     std::vector<std::string> instances;         ///< node names
-    std::vector<std::string> own_nodes;         ///< the same in the files, where they may be equal
+    std::vector<std::string> own_names;         ///< the same in the files, where they may be equal
     std::vector<std::string> instance_classes;  ///< extras.sonar.class of each instance; "": none
     std::vector<std::uint8_t> is_bottom;        ///< 1: all of this instance is the bottom
     Eigen::Vector3d bounds_min = Eigen::Vector3d::Zero();  ///< world frame

@@ -115,7 +115,7 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
 std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
     constexpr const char* another = "use the engine with the least error in `sonarsim report`";
-    // Errors fall about as fast as the goal, or more slowly. A step below half is rounded away.
+    // Errors fall about as fast as the goal, or more slowly; a rounded number must be lower.
     const double goal = mission.accuracy.relative_l1;
     const double finest =
         mission.engine == EngineKind::rays ? AccuracyConfig::min_relative_l1 : finest_goal;

@@ -222,17 +222,16 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         .rows = context.view.range_bins,
         .beams = context.view.beams,
         .noise = analog_noise_values};
-    if (context.terms.random > 1) add_leaks(receiver, rows.beams, ping.intensity);
+    const bool is_received = context.terms.random > 1;
+    if (is_received) add_leaks(receiver, rows.beams, ping.intensity);
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
-        if (context.terms.random > 1) {
-            add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);
-            add_leaks(receiver, rows.beams, mean);
-        }
+        if (is_received) add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);
+        if (is_received) add_leaks(receiver, rows.beams, mean);
         detected.apply(mean, ping.intensity);
     }
     // Faults belong to the receiver's noise, the last of the random terms.
-    if (context.terms.random > 1) add_faults(receiver, rows, context.draws, ping.intensity);
+    if (is_received) add_faults(receiver, rows, context.draws, ping.intensity);
     ping.seconds.accumulate = watch.lap();
 }
 

@@ -29,6 +29,7 @@ TEST_CASE("glTF: instanced meshes and unique instance names") {
     gltf.node({{"name", "tri_2"}, {"mesh", 0}, {"translation", {7, 0, 0}}});
     const Scene scene = load(gltf);
     CHECK(scene.instances == std::vector<std::string>{"tri", "tri_2", "node2", "tri_2_2"});
+    CHECK(scene.own_names == std::vector<std::string>{"tri", "tri", "node2", "tri_2"});
     CHECK(scene.instance_classes == std::vector<std::string>{"", "tri", "", "tri_2"});
     CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 1, 2, 3});
     CHECK(scene.vertices.size() == 12);

@@ -121,7 +121,7 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
             if (!is_part) {
                 scene.instances.push_back(mesh.instance);
-                scene.own_nodes.push_back(mesh.own_node);
+                scene.own_names.push_back(mesh.own_name);
                 scene.instance_classes.push_back(class_of(file, mesh));
                 scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
             }

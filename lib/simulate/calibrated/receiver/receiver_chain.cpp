@@ -140,7 +140,7 @@ double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& d
 }
 
 void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image) {
-    // Fit: ghosts of bright things in half of the training fans of an ARIS 3000.
+    // Fit: ghosts of bright things in half of the training fans of an ARIS 3000, by steps of 10 dB.
     constexpr float share = 1e-3F;
     const int step = receiver.channel_beams;
     if (step == 1) return;
