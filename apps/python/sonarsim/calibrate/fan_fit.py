@@ -50,6 +50,10 @@ class Fans(Sensor):
             raise CalibrationError(f"{name}: the fans are not of one grey outside of {azimuth_deg:g} degrees and {low:g} to "
                                    f"{high:g} m: give their opening and ranges")
         self.index = self.from_fan(np.arange(height * width).reshape(height, width))
+        varies = np.ptp(self.polar(self.pixels), axis=0).any(axis=0)
+        edge = 1 + len(varies) // 50
+        if not (varies[:edge].any() and varies[-edge:].any()):
+            raise CalibrationError(f"{name}: the outermost bearings are the same in all fans: cut off margins, or give the opening")
 
     def __len__(self):
         return len(self.pixels)
@@ -92,7 +96,6 @@ class Display(Records):
     """Fans of the echoes of a scene."""
 
     def __init__(self, fans, echoes, start, seed):
-        super().__init__(echoes, start, seed)
         self.fans = fans
         # Beams are formed of the same elements, so they share noise.
         beam, sines = start.instrument["beam"], np.sin(middles(echoes.sensor.azimuth_edges_rad))
@@ -100,7 +103,7 @@ class Display(Records):
         apart = np.abs(np.subtract.outer(sines, sines)) * half_power / np.sin(0.5 * np.radians(beam["width_deg"]))
         values, vectors = np.linalg.eigh(np.sqrt(beam_correlation(pedestal, apart)))
         root = (vectors * np.sqrt(np.maximum(values, 0.0))).astype(np.float32).T
-        self.noise = self.noise.real @ root + 1j * (self.noise.imag @ root)
+        super().__init__(echoes, start, seed, root)
         shape = echoes.amplitude.shape[1:]
         self.index = echoes.sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape), fans.pixels.shape[2], -1)
 

@@ -8,7 +8,7 @@ from .correlations import fit_array, fit_pulse, pulse_of
 from .judge import classified
 from .law import FewPatches, Law, fit_law, full_value_of
 from .noise import Noise, fit_noise, noise_blocks
-from .statistics import LAGS, WIDEST, Bounded, receiver_statistics
+from .statistics import LAGS, Bounded, is_too_wide, receiver_statistics
 
 MIN_PATCHES = 24
 DECIBELS = "receiver.full_scale_db", "receiver.noise_db", "beam.side_lobe_db"   # they have no share of themselves
@@ -58,15 +58,14 @@ def fit_image(recording, start):
 
 
 def drop_wide(fit, level_at_start):
-    """Takes the numbers out of a fit whose interval is wider than 30 %. `level_at_start`: of the noise."""
+    """Takes the numbers out of a fit whose interval is too wide. `level_at_start`: of the noise."""
     for key, number in [*fit.estimates.items()]:
-        if isinstance(number, Bounded) and key not in DECIBELS and number.high - number.low > WIDEST * abs(number.value):
+        if isinstance(number, Bounded) and key not in DECIBELS and is_too_wide(key.split(".")[1], number):
             section, name = key.split(".")
             del fit.estimates[key]
             fit.instrument[section][name] = fit.start[section].get(name)
-            fit.lacks.append(f"what shows {name} within 30 %")
-            fit.notes.append(f"{key}: the interval {number.low:.4g} to {number.high:.4g} is wider than 30 %; that of the "
-                             "start is kept")
+            fit.lacks.append(f"what shows {name} well")
+            fit.notes.append(f"{key}: the interval {number.low:.4g} to {number.high:.4g} is too wide; that of the start is kept")
             if name == "tvg_log" and fit.estimates.pop("receiver.full_scale_db", None):     # it holds for that growth alone
                 fit.level_db = level_at_start
                 fit.instrument["receiver"].update((key, fit.start["receiver"].get(key)) for key in ("full_scale_db", "tvg_absorption"))
@@ -154,6 +153,8 @@ def set_levels(start, fit):
     if noise is None:
         fit.lacks.append("rows that show noise alone")
         return fit.notes.append("tvg_log: no rows show noise alone; that of the start is kept")
+    if noise.tvg_log.high < 0.0:    # tails of echoes
+        return fit.notes.append("tvg_log: what looks like noise falls with range; that of the start is kept")
     # An error of the law scales all levels below full scale, and the gain with them.
     share = law.scale.half_width / law.scale.value
     near, far = noise.used.range_m[[0, -1]]

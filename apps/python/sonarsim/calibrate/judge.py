@@ -27,9 +27,17 @@ class Figure(typing.NamedTuple):
     measured: Bounded
 
     @property
+    def most(self):
+        return {"dB": 1.0, "correlation": 0.05}.get(self.tolerance) or self.tolerance * abs(self.measured.value)
+
+    @property
+    def is_known(self):
+        """True if the pings determine the figure within its tolerance."""
+        return np.isfinite(self.measured.value) and (self.tolerance == "dB" or self.measured.half_width <= self.most)
+
+    @property
     def agrees(self):
-        most = {"dB": 1.0, "correlation": 0.05}.get(self.tolerance) or self.tolerance * abs(self.measured.value)
-        return self.predicted is not None and abs(self.predicted - self.measured.value) <= most
+        return self.predicted is not None and abs(self.predicted - self.measured.value) <= self.most
 
 
 def classified(recording, law, noise):
@@ -82,7 +90,7 @@ def figures_of(recording, instrument, level_db, start, fit):
                            float(speckle_part[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":
             out += noise_levels(recording, law, noise)
-    return [figure for figure in out if np.isfinite(figure.measured.value)]
+    return [figure for figure in out if figure.is_known]
 
 
 def noise_levels(recording, law, noise):

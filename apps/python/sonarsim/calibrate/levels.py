@@ -4,7 +4,7 @@ from scipy import optimize
 
 from ..compare.images import RING_SHARE
 from .scene import BOTTOMS, Echoes, own_mission, usual_mission, view_of
-from .statistics import WIDEST, Bounded
+from .statistics import Bounded, delivered, is_too_wide
 
 FULL, MAX_IMAGES, MAX_COLUMNS, RINGS = 255.0, 3, 32, 16
 QUANTILES = 0.1, 0.5, 0.9, 0.98
@@ -17,10 +17,15 @@ NUMBERS = {"full_scale_db": 30.0, "noise_db": 30.0, "tvg_log": 10.0}    # deviat
 class Records:
     """Records of the echoes of a scene. `numbers`: those of NUMBERS, the first for the law "gamma" or "log"."""
 
-    def __init__(self, echoes, start, seed):
+    def __init__(self, echoes, start, seed, mixing=None):
         self.echoes, self.receiver, self.absorption = echoes, start.instrument["receiver"], start.absorption_db_per_m
         normal = np.random.default_rng(seed).standard_normal((2, *echoes.amplitude.shape)).astype(np.float32)
-        self.noise = np.sqrt(0.5) * (normal[0] + 1j * normal[1])
+        real, imaginary = normal if mixing is None else normal @ mixing
+        self.noise = np.sqrt(0.5) * (real + 1j * imaginary)
+        samples, combine, expansion = (self.receiver.get(key, 1.0) for key in ("samples", "combine", "expansion"))
+        if (samples, expansion) != (1.0, 1.0):      # the program delivers echoes so
+            power = delivered(np.abs(self.noise) ** 2, samples, combine) ** expansion
+            self.noise *= np.sqrt(power / power.mean()) / np.abs(self.noise)
 
     def greys(self, law, numbers):
         """[ping, range, beam], from 0 to 255."""
@@ -94,8 +99,9 @@ def numbers_of(pairs, measured, first, law, scale, known):
 
 def is_wide(name, number):
     """True for a number that the levels do not show. The key tvg_log has limits."""
-    most = WIDEST_DB if name in ("full_scale_db", "noise_db") else WIDEST * number.value
-    return number.high - number.low > most or name == "tvg_log" and not 0.0 <= number.value <= 60.0
+    if name in ("full_scale_db", "noise_db"):
+        return number.high - number.low > WIDEST_DB
+    return is_too_wide(name, number) or name == "tvg_log" and not 0.0 <= number.value <= 60.0
 
 
 def fit_levels(windows, start, fit, mission=None, settings=()):

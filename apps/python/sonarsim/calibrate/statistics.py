@@ -6,7 +6,7 @@ import numpy as np
 from scipy import special
 
 DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
-WIDEST = 0.3                    # interval of a number over its value that a preset may have
+WIDEST, WIDEST_TVG = 0.3, 10.0  # interval of a number over its value, and of tvg_log, that a preset may have
 LAGS = 8                        # the greatest lag of correlations, in bins and beams
 TERMS = 400                     # of the correlation of ln P
 
@@ -35,6 +35,10 @@ class Bounded(typing.NamedTuple):
 
     def __str__(self):
         return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g})"
+
+
+def is_too_wide(name, number):
+    return number.high - number.low > (WIDEST_TVG if name == "tvg_log" else WIDEST * abs(number.value))
 
 
 def bootstrap(count, estimate, least=0.0, draws=80):
