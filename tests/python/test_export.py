@@ -252,6 +252,8 @@ class Export(tool.ToolTest):
         for name in found:
             if "background" in name:
                 self.assertLess(np.asarray(Image.open(self.dest / name)).max(), 121, name)
+        folders = self.export(*fls, "--pixel-m", "0.5", "--negatives", "0").glob("train/*")     # empty ones, too
+        self.assertEqual(sorted(one.name for one in folders), ["background", "mine", "tyre"])
         self.refused("needs --pixel-m", "--format", *fls)
         self.refused("'sss' stands still", "--format", *sss, "0.1")
         (self.out / "trajectory.tum").write_text("".join(f"{k} {0.5 * k} 0 0 0 0 0 1\n" for k in range(ROWS)))

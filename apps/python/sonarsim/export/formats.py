@@ -249,9 +249,12 @@ class Crops(Format):
     def add(self, piece):
         kind = self.folders[piece.objects[0]["class"] if piece.objects else 0]
         place(self.folder / piece.part / kind, f"{piece.name}.png", piece.content)
+        self.parts[piece.part] = True
 
     def finish(self):
-        pass
+        for part in self.parts:     # ImageFolder numbers the folders that are there
+            for kind in self.folders:
+                (self.folder / part / kind).mkdir(exist_ok=True)
 
 
 KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops, "hf": HuggingFace}

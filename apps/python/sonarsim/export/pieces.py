@@ -42,9 +42,12 @@ def prepare(picture, numbers, options):
         shown = [object_of(one, picture.kind, numbers[one["class"]]) for one in listed]
         objects = with_pixels([one for one in shown if one], picture, pixels, options)
         kept = [one for one in objects if is_kept(one, picture, options)]
-    faint = len(objects) - len(kept)
+    faint = sum(one["iscrowd"] for one in objects) - sum(one["iscrowd"] for one in kept)
     if options.format == "crops":
+        others = [object_of(one, picture.kind, 1) for one in listed if one["class"] in options.without]
         boxes = [box for one in objects for box in (one["box"], one["shadow"]) if box]
+        boxes += [box for one in filter(None, others) for box in (runs.box_of(runs.pixels_of(
+            one["mask"], picture.width, picture.height), picture.height), one["shadow"]) if box]
         pieces, left_out = crops_of(picture, pixels, kept, boxes, options)
         return pieces, {"faint": faint, **left_out}
     pieces, dropped = [], 0
@@ -205,6 +208,7 @@ def show(one, picture, frame, options):
     shown["box"] = box
     if not is_whole:
         shown["mask"] = runs.counts_of(pixels, width, height)
+        shown["clipped"] = one.get("clipped", False) or pixels.size < one["area"]
     if options.polygons or options.oriented:
         shown["outlines"] = runs.outlines(pixels, height)
     return shown

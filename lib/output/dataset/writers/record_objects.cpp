@@ -50,9 +50,14 @@ class Strip {
             shape_.upright ? ResolutionCell{range_bins, 1.0} : ResolutionCell{1.0, range_bins};
         pass_of_pixel_ =
             source_.drawn({static_cast<int>(across), static_cast<int>(down), cell}, pass_of_pixel_);
+        add_shadows();
         std::vector<Json> objects;
         for (const ObjectMask& mask : object_masks(pass_of_pixel_, static_cast<int>(down))) {
-            complete(passes_[mask.id]);
+            SeenObject& pass = passes_[mask.id];
+            complete(pass);
+            pass.clipped = pass.clipped || mask.left == 0 || mask.top == 0 ||
+                           mask.right == static_cast<int>(across) ||
+                           mask.bottom == static_cast<int>(down);
             objects.push_back(source_.json(passes_[mask.id], mask));
         }
         const Json head{{"picture", std::string(shape_.name) + ".png"},
@@ -89,6 +94,7 @@ class Strip {
         std::array<std::vector<Present>, 2> present;
         present.fill(std::vector<Present>(max_passes));
         pass_of_pixel_.assign(static_cast<std::size_t>(bins_) * rows_, 0);
+        shadow_of_pixel_ = pass_of_pixel_;
         RecordValues values(1, bins_);
         for (std::size_t ping = 0; ping < pings_; ++ping) {
             source_.read(ping, 1, 0, values);
@@ -97,7 +103,7 @@ class Strip {
                 if (id == 0) continue;
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 see(id, ping, bin, values.visible_share[bin], one);
-                draw(ping, bin, one.pass);
+                draw(ping, bin, one.pass, pass_of_pixel_);
             }
             for (int bin = 0; bin < bins_; ++bin) {
                 const std::uint16_t id = values.shadow[bin];
@@ -105,7 +111,7 @@ class Strip {
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 const bool in_pass = one.pass != 0 && joins(one.last, ping);
                 if (source_.has_shadow[id] != 0 && in_pass && one.last == ping)
-                    draw(ping, bin, one.pass);
+                    draw(ping, bin, one.pass, shadow_of_pixel_);
                 if (!in_pass && !goes_on(one.shadow, ping)) one.shadow = {};
                 BinBox& box = in_pass ? passes_[one.pass].shadow : one.shadow;
                 box.extend(static_cast<int>(ping), bin);
@@ -113,15 +119,26 @@ class Strip {
         }
     }
 
+    /// Adds the shadows of the passes that have pixels to their masks.
+    void add_shadows() {
+        std::vector<std::uint8_t> has_pixels(max_passes, 0);
+        for (const std::uint16_t pass : pass_of_pixel_)
+            has_pixels[pass] = 1;
+        for (std::size_t k = 0; k < pass_of_pixel_.size(); ++k) {
+            const std::uint16_t pass = shadow_of_pixel_[k];
+            if (pass_of_pixel_[k] == 0 && has_pixels[pass] != 0) pass_of_pixel_[k] = pass;
+        }
+    }
+
     bool goes_on(const BinBox& shadow, std::size_t ping) const {
         return !shadow.is_empty() && joins(static_cast<std::size_t>(shadow.last_line), ping);
     }
 
-    void draw(std::size_t ping, int bin, std::uint16_t pass) {
+    void draw(std::size_t ping, int bin, std::uint16_t pass, Ids& picture) const {
         const std::size_t at = shape_.upright
                                    ? ping / each_ * bins_ + bin
                                    : static_cast<std::size_t>(bin) * rows_ + ping / each_;
-        if (pass_of_pixel_[at] == 0) pass_of_pixel_[at] = pass;
+        if (picture[at] == 0) picture[at] = pass;
     }
 
     void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
@@ -188,7 +205,8 @@ class Strip {
     std::vector<double> range_m_;         ///< range of each value of a ping
     std::vector<Eigen::Vector3d> bows_;   ///< the vehicle's, by ping, world
     std::vector<SeenObject> passes_{{}};  ///< indexed by number
-    Ids pass_of_pixel_;
+    Ids pass_of_pixel_;                   ///< of the objects
+    Ids shadow_of_pixel_;                 ///< of the shadows that masks include
 };
 
 /// The facts of an object in the display of a sweep.
@@ -210,12 +228,20 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
         }
     }
     const BinBox& box = visible.box;
-    const bool at_side =
-        !display.full_turn && (box.first_line == 0 || box.last_line + 1 == display.lines);
-    visible.clipped = at_side || box.first_bin == 0 || box.last_bin + 1 == display.bins;
     visible.bearing_deg = -degrees(arctan2(to_port, ahead));
     source.add_contrasts(display, box, {0, display.lines - 1, 0, display.bins - 1}, visible);
     return visible;
+}
+
+/// True if the mask of an object touches the border of a sweep.
+bool touches_edge(const RecordValues& display, const Ids& ids, std::uint32_t id) {
+    BinBox box;
+    for (int k = 0; k < std::ssize(ids); ++k) {
+        if (ids[k] == id) box.extend(k / display.bins, k % display.bins);
+    }
+    const bool at_side = box.first_line == 0 || box.last_line + 1 == display.lines;
+    return box.first_bin == 0 || box.last_bin + 1 == display.bins ||
+           (at_side && !display.full_turn);
 }
 
 /// The first ping of a sweep that shows an object, and the one after the last.
@@ -257,6 +283,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
             SeenObject visible =
                 visible_in_sweep(source, drawn, static_cast<std::uint16_t>(mask.id), whole);
             visible.pings = pings_of(mask.id, drawn, config, begin, end);
+            visible.clipped = touches_edge(display, mask_ids, mask.id);
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
             if (shadow != shadows.end())
                 visible.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
