@@ -228,8 +228,7 @@ class Others(Sandbox):
         blocks = self.dataset("out/variant_0000")["sensors"]
         metas = [self.json(f"out/variant_0000/{one['name']}/meta/000000.json") for one in blocks]
         for heading, found in (("### The description of a sensor", blocks), ("### The metadata of a ping", metas)):
-            rows = self.rows_below(heading)
-            keys = set()
+            rows, keys = self.rows_below(heading), set()
             for block in found:
                 for key, value in block.items():
                     keys |= {key} if key in rows or not isinstance(value, dict) else {f"{key}.{inner}" for inner in value}

@@ -110,11 +110,9 @@ class FaultyDisk(Faults):
 class Ends(Faults):
     def test_signals_at_random_moments(self):
         self.write("path.csv", path_csv(120))
-        start = time.monotonic()
-        whole = self.render_whole()
+        start, whole = time.monotonic(), self.render_whole()
         longest = time.monotonic() - start
-        draw = random.Random(20)
-        killed = False
+        draw, killed = random.Random(20), False
         codes = {signal.SIGINT: {130}, signal.SIGTERM: {143}, signal.SIGKILL: {-signal.SIGKILL}}
         for _ in range(4 if SANITIZED else 16):
             number = draw.choice(list(codes))

@@ -26,8 +26,7 @@ ONLY = os.environ.get("RANDOM_ONLY")
 MAX_CPU_S = 300 if SANITIZED else 60 if MISSIONS > 100 else 10
 LONGEST_S = max(600, 10 * MAX_CPU_S)
 # What takes longer is not rendered again on one thread.
-MAX_TWICE_S = 600 if MISSIONS > 100 else 1
-MAX_MEMORY = 6 << 30
+MAX_TWICE_S, MAX_MEMORY = 600 if MISSIONS > 100 else 1, 6 << 30
 
 PLACE = re.compile(r"error: (mission\.json|materials\.csv|scene\.gltf|path\.csv"
                    r"|/[^ ]*\.(json|csv|gltf)|sensor '\w+'|[a-z_]+(\.[a-z_]+)*)\b")

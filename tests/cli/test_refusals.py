@@ -28,8 +28,7 @@ sensors:
 output: {{folder: out}}
 """
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nSand,1900,1650\nSteel,7850,5900\n"
-GLB = b"glTF\x02\0\0\0" + bytes(30)
-TIFF = b"II*\0\x08\0\0\0" + bytes(30)
+GLB, TIFF = b"glTF\x02\0\0\0" + bytes(30), b"II*\0\x08\0\0\0" + bytes(30)
 
 
 def bottom(scale=1.0, z=0.0):

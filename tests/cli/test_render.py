@@ -42,7 +42,6 @@ class Render(Sandbox):
         self.assert_has(debug, "12 triangles without area are left out", "multipath:", "footprints dropped")
 
     def test_another_mission_is_refused_in_words(self):
-        """What is there already is never harmed: tests/job."""
         self.assert_renders()
         before = digest(self.out)
         changes = ("seed: 7 there, 3 here", "sensors.fls.range_max_m: 6 there, 5 here", "--overwrite")

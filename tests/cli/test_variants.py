@@ -135,7 +135,6 @@ class Variants(Sandbox):
         self.assertEqual(digest(self.out), digest(self.folder / "whole"))
 
     def test_merge(self):
-        """With more shards than variants."""
         self.assert_renders(*TWO)
         self.assert_shards_agree(*TWO, count=3)
         shutil.rmtree(self.out / "variant_0001")

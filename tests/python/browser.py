@@ -10,8 +10,7 @@ import time
 import urllib.error
 import urllib.request
 
-CHROMIUM = shutil.which("chromium")
-CHROMEDRIVER = shutil.which("chromedriver")
+CHROMIUM, CHROMEDRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 KEYS = {"right": "\ue014", "left": "\ue012", "down": "\ue015", "home": "\ue011", "end": "\ue010", "escape": "\ue00c"}
 
 

@@ -86,8 +86,7 @@ def ek60(frequency=38000.0, steps=(-4000, -8000, -20000), mode=3):
     return simrad(b"RAW0", content + struct.pack(f"<{len(steps)}h", *steps) + bytes(2 * len(steps)))
 
 
-GAMMA = "law: {kind: gamma}\n"
-BEARINGS = "bearing_first_deg: 14\nbearing_last_deg: -14\n"
+GAMMA, BEARINGS = "law: {kind: gamma}\n", "bearing_first_deg: 14\nbearing_last_deg: -14\n"
 # recording.yaml, a whole file, and the lengths to which it may be cut off and still be whole.
 FORMATS = {"oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
     "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2, {1024 + len(xtf_ping())}),

@@ -10,8 +10,21 @@ namespace {
 
 using Ids = std::vector<std::uint16_t>;
 
-ObjectSphere sphere_around(const Eigen::AlignedBox3d& box) {
-    return {box.center(), 0.5 * box.diagonal().norm()};
+ObjectSphere sphere_around(const Eigen::AlignedBox3d& box, double area_m2) {
+    return {box.center(), 0.5 * box.diagonal().norm(), area_m2};
+}
+
+/// The area of each object's surface that is at rest, without that of copies.
+std::vector<double> still_areas(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    std::vector<double> areas(assembly.objects.objects.size());
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        const auto& [a, b, c] = scene.triangles[k];
+        const Eigen::Vector3f side = scene.vertices[b] - scene.vertices[a];
+        areas[assembly.objects.object_of(scene.triangle_instance[k])] +=
+            0.5 * side.cross(scene.vertices[c] - scene.vertices[a]).norm();
+    }
+    return areas;
 }
 
 /// The box around the surface at rest of each object, world.
@@ -36,17 +49,18 @@ AnnotatedObjects annotated_objects(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     const SceneObjects& objects = assembly.objects;
     const std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
+    const std::vector<double> areas = still_areas(assembly);
     AnnotatedObjects annotated;
     for (const Eigen::AlignedBox3d& box : boxes)
         annotated.surface.extend(box);
     if (!scene.bodies.empty()) annotated.surface.setEmpty();
     for (std::uint32_t k = 0; k < boxes.size(); ++k) {
         if (!objects.is_background(k) && !boxes[k].isEmpty())
-            annotated.still.push_back(sphere_around(boxes[k]));
+            annotated.still.push_back(sphere_around(boxes[k], areas[k]));
     }
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         if (objects.is_background(objects.object_of(scene.bodies[k].instance))) continue;
-        annotated.moving.push_back({k, sphere_around(box_of(scene.bodies[k].vertices))});
+        annotated.moving.push_back({k, sphere_around(box_of(scene.bodies[k].vertices), 0.0)});
     }
     return annotated;
 }
@@ -77,8 +91,12 @@ void weaken(std::span<const float> beam_gain, PingLabels& bins) {
     if (beam_gain.empty()) return;
     for (std::vector<float>* const echoes :
          {&bins.visible_echo, &bins.own_echo, &bins.whole_echo}) {
-        for (std::size_t k = 0; k < echoes->size(); ++k)
-            (*echoes)[k] *= beam_gain[k / static_cast<std::size_t>(bins.range_bins)];
+        auto echo = echoes->begin();
+        for (std::size_t j = 0; j < beam_gain.size() && echo != echoes->end(); ++j) {
+            const auto end = echo + bins.range_bins;
+            std::transform(echo, end, echo, [&](float power) { return power * beam_gain[j]; });
+            echo = end;
+        }
     }
 }
 

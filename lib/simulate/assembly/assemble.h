@@ -1,11 +1,6 @@
 #pragma once
 
 #include <compare>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "input/mission/mission.h"
 #include "input/scene/objects.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "input/trajectory/trajectory.h"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/mission/parse.h"
 #include "input/mission/variants.h"

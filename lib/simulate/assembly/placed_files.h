@@ -1,9 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/scene/placed_file.h"
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/scene/objects.h"
 #include "input/scene/placing/bottom.h"

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "input/mission/mission.h"
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "input/scene/gltf/load.h"
 #include "input/scene/placed_file.h"

@@ -54,12 +54,9 @@ class ImageFormer {
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && form_ == PowerForm::amplitude) add_own_phases(grid);
 
-        // 3. The water. Bins with its echo alone count as empty.
         count_occupied(grid);
-        if (context_.terms.direct && context_.terms.water && model_.water)
-            add_water(model_, traced_, context_, form_, speckle_gain_, grid, mean_.get());
 
-        // 4. Pulse and beams. 5. The receiver's noise and its gain.
+        // 3. The water and the tails of echoes. 4. Pulse and beams. 5. The receiver's noise.
         receive(form_, context_.terms.random > 1, grid, ping_.intensity);
         if (!mean_image.empty()) receive(PowerForm::power, false, *mean_, mean_image);
     }
@@ -68,9 +65,8 @@ class ImageFormer {
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
         // Cells of amplitudes share scatterers with their neighbours, so the tails are of powers.
-        add_reverberation(model_.reverberation, powers || !mean_ ? grid : *mean_, form,
-                          powers ? 1.0F : speckle_gain_,
-                          context_.draws.of(stream_named("reverberation")), grid);
+        add_reverberation(model_, traced_, context_, powers || !mean_ ? grid : *mean_, form,
+                          speckle_gain_, grid);
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps, column_gains_,
                             powers);
         beams_.form(grid, powers, noisy, context_.draws.received(Stream::receiver_noise),

@@ -223,11 +223,13 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         .beams = context.view.beams,
         .noise = analog_noise_values};
     const bool is_received = context.terms.random > 1;
-    if (is_received) add_leaks(receiver, rows.beams, ping.intensity);
+    if (is_received)
+        add_leaks(receiver, rows.beams, context.draws.received(stream_named("leaks")),
+                  ping.intensity);
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
         if (is_received) add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);
-        if (is_received) add_leaks(receiver, rows.beams, mean);
+        if (is_received) add_mean_leaks(receiver, rows.beams, mean);
         detected.apply(mean, ping.intensity);
     }
     // Faults belong to the receiver's noise, the last of the random terms.

@@ -71,9 +71,10 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
 void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
                std::span<float> mean, Ping& ping);
 
-/// Adds the echoes of the water's volume to a grid. `gain`: as in draw_speckle(), for amplitudes.
-/// `mean`: a grid that receives their powers; null: none.
-void add_water(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               PowerForm form, float gain, EchoGrid& grid, EchoGrid* mean);
+/// Adds reverberation to a grid: the echoes of the water's volume, and the tails of all echoes,
+/// whose mean powers are `powers`; these may be the grid. `gain`: as in draw_speckle().
+void add_reverberation(const CalibratedModel& model, const TracedPing& traced,
+                       const FormContext& context, const EchoGrid& powers, PowerForm form,
+                       float gain, EchoGrid& grid);
 
 }  // namespace sonarsim

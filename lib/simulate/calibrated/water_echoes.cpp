@@ -170,14 +170,23 @@ class ReceivedWater {
 
 }  // namespace
 
-void add_water(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               PowerForm form, float gain, EchoGrid& grid, EchoGrid* mean) {
-    const ReceivedWater received(model, traced, context.scene);
-    const PhiloxKey key = context.draws.of(stream_named("water"));
+void add_reverberation(const CalibratedModel& model, const TracedPing& traced,
+                       const FormContext& context, const EchoGrid& powers, PowerForm form,
+                       float gain, EchoGrid& grid) {
+    const Terms& terms = context.terms;
+    std::optional<ReceivedWater> water;
+    if (terms.direct && terms.water && model.water) water.emplace(model, traced, context.scene);
+    if (!water && !(model.reverberation.share > 0.0F)) return;
+    const PhiloxKey key = context.draws.of(stream_named("reverberation"));
+    const auto rows = static_cast<std::size_t>(grid.rows());
+    std::vector<float> drawn;
     for (int c = 0; c < grid.columns(); ++c) {
-        const std::vector<float> powers = received.powers(c);
-        add_drawn(form, powers, gain, c, key, grid);
-        if (mean) add_drawn(PowerForm::power, powers, gain, c, key, *mean);
+        if (water)
+            drawn = water->powers(c);
+        else
+            drawn.assign((rows + lanes - 1) / lanes * lanes, 0.0F);
+        add_tails(model.reverberation, powers.column(c), std::span(drawn).first(rows));
+        add_drawn(form, drawn, gain, c, key, grid);
     }
 }
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "core/pose.h"
 #include "simulate/visibility/clusters_in_view.h"
 #include "simulate/visibility/view.h"

@@ -39,7 +39,7 @@ class LineTracer {
     /// Counts a line as visible. True if wanted surface may lie behind it.
     bool see(const SightLine& line) {
         solid_angles_[owner_of(line)].visible += line.solid_angle;
-        return is_wanted(line) || is_before_edge(line);
+        return is_wanted(line) || std::isfinite(least_size(line));
     }
 
     /// True if an object may lie behind a line.
@@ -48,14 +48,21 @@ class LineTracer {
                !directions_.is_empty_behind(line.direction, line.range_m);
     }
 
-    /// True if an object may lie behind some of a line.
-    bool is_before_edge(const SightLine& line) const {
-        const auto lies = [&](const Eigen::Vector3f& edge, float share) {
-            const Eigen::Vector3f off = share / line.before_m * edge;
-            return directions_.may_lie_behind(line.direction + off, line.before_m);
+    /// The least size of the objects that may lie behind some of a line; infinite: none.
+    float least_size(const SightLine& line) const {
+        float least = std::numeric_limits<float>::infinity();
+        const auto look = [&](const Eigen::Vector3f& edge, float share) {
+            const Eigen::Vector3f towards = line.direction + share / line.before_m * edge;
+            if (directions_.may_lie_behind(towards, line.before_m))
+                least = std::min(least, directions_.least_size(towards));
         };
-        const auto& [u, v] = std::pair(line.sample->edge_u, line.sample->edge_v);
-        return lies(u, 0.0F) || lies(u, 1.0F) || lies(u, -1.0F) || lies(v, 1.0F) || lies(v, -1.0F);
+        const Sample& sample = *line.sample;
+        look(sample.edge_u, 0.0F);
+        for (const float share : {1.0F, -1.0F}) {
+            look(sample.edge_u, share);
+            look(sample.edge_v, share);
+        }
+        return least;
     }
 
     /// True if an object hides what lies behind a line, not background.
@@ -185,8 +192,8 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
     std::vector<SightLine> lines;
     for (const SightLine& line : whole) {
         const auto keep = [&](const SightLine& part) { return tracer.is_before_object(part); };
-        if (tracer.is_before_edge(line))
-            divide(line, parts_of_share(line, view), width, keep, lines);
+        if (const float size = tracer.least_size(line); std::isfinite(size))
+            divide(line, parts_of_share(line, view, size), width, keep, lines);
     }
     pass(lines, [&](std::size_t k, std::span<const Intersection> surfaces) {
         tracer.count_hidden(lines[k], surfaces);

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 #include "input/scene/objects.h"
 #include "simulate/labels/object_directions.h"
 #include "simulate/ping/sonar.h"
@@ -89,8 +84,8 @@ struct LineParts {
 LineParts parts_of(const SightLine& line, const Intersection* met, const LineWidth& width);
 
 /// The parts for a line that may have some of an object behind it, for the object's share. Their
-/// lines are scattered: those of a grid may all miss a thin object.
-LineParts parts_of_share(const SightLine& line, const View& view);
+/// lines are scattered: those of a grid may all miss a thin object. `size`: as least_size().
+LineParts parts_of_share(const SightLine& line, const View& view, float size);
 
 /// Appends the parts of a line that has not left its sample.
 void divide(const SightLine& line, const LineParts& parts, const LineWidth& width,

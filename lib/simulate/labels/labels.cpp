@@ -196,36 +196,27 @@ void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const 
         return piece.behind_background || objects.is_background(piece.object);
     });
     drop_far_sides(by_objects, view.beams);
-    const std::vector<HiddenPiece>& pieces = request.shadow ? hidden.pieces : by_objects;
     const bool is_wide = view.energies_add && !echoes.cones.exist();
-    std::vector<std::uint8_t> hidden_by_all;
-    if (is_wide || request.shadow) hidden_by_all = hidden_bins(pieces, bins, view.beams);
-    std::vector<std::vector<std::uint8_t>> above;
     const std::vector<std::uint32_t> ground = surfaces.ground();
-    for (int j = 0; is_wide && j < view.beams; ++j) {
-        above.push_back(
-            bins_above_shadow(surfaces.sums(), j, ground, own(hidden_by_all, labels, j)));
-    }
-    const auto find = [&](std::span<const HiddenPiece> by, std::vector<std::uint8_t> covered,
+    const auto find = [&](const std::vector<HiddenPiece>& by, bool by_triangles,
                           std::vector<std::uint16_t>& shadow) {
+        std::vector<std::uint8_t> hidden_by = hidden_bins(by, bins, view.beams);
+        std::vector<std::uint8_t> covered = hidden_by;
+        if (by_triangles)
+            covered = covered_bins(request.triangles ? *request.triangles : SceneClusters(scene),
+                                   view, traced.T_world_sensor, engine.body_poses());
         ShadowFinder finder(by, view);
         for (int j = 0; j < view.beams; ++j) {
-            finder.find(j, own(covered, labels, j),
-                        is_wide ? above[j] : surfaces.sums().occupied(j), own(shadow, labels, j));
+            finder.find(
+                j, own(covered, labels, j),
+                is_wide ? bins_above_shadow(surfaces.sums(), j, ground, own(hidden_by, labels, j))
+                        : surfaces.sums().occupied(j),
+                own(shadow, labels, j));
         }
     };
-    if (request.shadow) {
-        const bool by_triangles = !echoes.cones.exist() && !scene.sound_profile;
-        find(hidden.pieces,
-             by_triangles
-                 ? covered_bins(request.triangles ? *request.triangles : SceneClusters(scene), view,
-                                traced.T_world_sensor, engine.body_poses())
-                 : hidden_by_all,
-             labels.shadow);
-    }
-    if (request.annotations) {
-        find(by_objects, hidden_bins(by_objects, bins, view.beams), labels.object_shadow);
-    }
+    if (request.shadow)
+        find(hidden.pieces, !echoes.cones.exist() && !scene.sound_profile, labels.shadow);
+    if (request.annotations) find(by_objects, false, labels.object_shadow);
     for (std::uint32_t k = 0; !request.shadow && k < hidden.visible_shares.size(); ++k) {
         if (objects.is_background(k))
             hidden.visible_shares[k] = std::numeric_limits<float>::quiet_NaN();

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <vector>
-
 #include "input/scene/objects.h"
 #include "input/scene/placing/bottom.h"
 #include "simulate/labels/object_directions.h"

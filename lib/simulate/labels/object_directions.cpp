@@ -1,6 +1,5 @@
 #include "simulate/labels/object_directions.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,7 +9,8 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
                                    const Eigen::AlignedBox3d* surface, const Pose& T_world_sensor,
                                    double range_min_m, double range_max_m)
     : rotation_(T_world_sensor.rotation.toRotationMatrix()),
-      far_m_(static_cast<std::size_t>(cells) * cells, 0.0F) {
+      far_m_(static_cast<std::size_t>(cells) * cells, 0.0F),
+      least_size_(far_m_.size(), std::numeric_limits<float>::max()) {
     if (surface && !surface->isEmpty()) {
         // Vertices are floats relative to the scene's centre.
         constexpr double rounding_of_floats = 1e-7;
@@ -29,17 +29,21 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
         // its centre. Unit vectors at an angle a are 2 sin(a / 2) = sqrt(2 - 2 cos a) apart.
         const double sine = sphere.radius_m / distance_m;
         const bool is_inside = !(sine < 1.0);
+        const double size = is_inside ? 0.0 : 0.5 * std::sqrt(sphere.area_m2) / distance_m;
         const double apart = is_inside ? 2.0 : std::sqrt(2.0 - 2.0 * std::sqrt(1.0 - sine * sine));
         const Eigen::Vector3d towards =
             is_inside ? Eigen::Vector3d::Zero() : Eigen::Vector3d(centre / distance_m);
-        constexpr double rounding = 1e-6;
-        const std::size_t first_y = cell_of(towards.y() - apart - rounding);
-        const std::size_t last_y = cell_of(towards.y() + apart + rounding);
-        const std::size_t last_z = cell_of(towards.z() + apart + rounding);
-        for (std::size_t z = cell_of(towards.z() - apart - rounding); z <= last_z; ++z) {
+        constexpr double rounding = 1e-6;  // of floats, too
+        const auto cell_at = [](double at) { return cell_of(static_cast<float>(at)); };
+        const std::size_t first_y = cell_at(towards.y() - apart - rounding);
+        const std::size_t last_y = cell_at(towards.y() + apart + rounding);
+        const std::size_t last_z = cell_at(towards.z() + apart + rounding);
+        for (std::size_t z = cell_at(towards.z() - apart - rounding); z <= last_z; ++z) {
             for (std::size_t y = first_y; y <= last_y; ++y) {
                 float& far = far_m_[z * cells + y];
                 far = std::max(far, static_cast<float>(far_m));
+                float& least = least_size_[z * cells + y];
+                least = std::min(least, static_cast<float>(size));
             }
         }
     }
@@ -47,7 +51,8 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
 
 ObjectDirections::ObjectDirections()
     : rotation_(Eigen::Matrix3d::Identity()),
-      far_m_(static_cast<std::size_t>(cells) * cells, std::numeric_limits<float>::infinity()) {}
+      far_m_(static_cast<std::size_t>(cells) * cells, std::numeric_limits<float>::infinity()),
+      least_size_(far_m_.size(), 0.0F) {}
 
 bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float range_m) const {
     if (from_sensor_.isEmpty()) return false;
@@ -61,11 +66,6 @@ bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float r
         if (is_past) return true;
     }
     return false;
-}
-
-std::size_t ObjectDirections::cell_of(double coordinate) {
-    const double cell = std::floor(0.5 * (coordinate + 1.0) * cells);
-    return static_cast<std::size_t>(std::clamp(cell, 0.0, cells - 1.0));
 }
 
 }  // namespace sonarsim

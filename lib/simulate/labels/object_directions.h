@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -12,6 +12,7 @@ namespace sonarsim {
 struct ObjectSphere {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius_m = 0.0;
+    double area_m2 = 0.0;  ///< of the object's surface; 0: not known
 };
 
 /// The directions in which some of these objects may lie, on a grid of cells over the y and z of
@@ -30,17 +31,27 @@ class ObjectDirections {
         return far_m_[cell_of(direction.z()) * cells + cell_of(direction.y())] > range_m;
     }
 
+    /// The square root of the least solid angle of the objects that may lie in a direction, rad. A
+    /// convex body appears as large as a quarter of its surface, on average (Cauchy).
+    float least_size(const Eigen::Vector3f& direction) const {
+        return least_size_[cell_of(direction.z()) * cells + cell_of(direction.y())];
+    }
+
     /// True if no surface lies in the direction of a unit vector beyond a range.
     bool is_empty_behind(const Eigen::Vector3f& direction, float range_m) const;
 
   private:
     static constexpr int cells = 128;  ///< along y and along z, from -1 to 1
 
-    static std::size_t cell_of(double coordinate);
+    static std::size_t cell_of(float coordinate) {
+        constexpr float half = 0.5F * cells;
+        return static_cast<std::size_t>(std::clamp(half * coordinate + half, 0.0F, cells - 1.0F));
+    }
 
     Eigen::AlignedBox3d from_sensor_;  ///< `surface`, relative to the sensor, axes of the world
     Eigen::Matrix3d rotation_;         ///< from the sensor's frame to the world's
     std::vector<float> far_m_;         ///< [z, y]: the greatest range of an object there; 0: none
+    std::vector<float> least_size_;    ///< [z, y]
 };
 
 }  // namespace sonarsim

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/surface_echoes.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "simulate/labels/hidden_surface.h"
 #include "simulate/labels/top_two.h"
 

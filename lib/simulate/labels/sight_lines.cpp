@@ -16,7 +16,9 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
-// The mean distance of the lines of shares: 2.5 cm at 5 m, and in thin views less. Chosen.
+// The mean distance of the lines of shares: this share of an object's size, so that some 400 meet
+// it, but at least 2.5 cm at 5 m, and in thin views less. Chosen.
+constexpr double share_of_size = 0.05;
 constexpr double share_rad = 0.005;
 constexpr double share_by_view = 0.25;
 
@@ -134,8 +136,9 @@ LineParts parts_of(const SightLine& line, const Intersection* met, const LineWid
     return {count(line.sample->edge_u), count(line.sample->edge_v)};
 }
 
-LineParts parts_of_share(const SightLine& line, const View& view) {
-    const auto apart = static_cast<float>(std::min(share_rad, share_by_view * view.elevation_rad));
+LineParts parts_of_share(const SightLine& line, const View& view, float size) {
+    const auto apart = static_cast<float>(std::min(
+        std::max<double>(share_rad, share_of_size * size), share_by_view * view.elevation_rad));
     const auto count = [&](const Eigen::Vector3f& half_edge) {
         const float half_m = (half_edge - line.direction * line.direction.dot(half_edge)).norm();
         const float number = 2.0F * half_m / (line.before_m * apart);

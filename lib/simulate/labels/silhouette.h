@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "simulate/trace/echo_model.h"
 #include "simulate/visibility/view.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "simulate/trace/range_boxes.h"
 
 namespace sonarsim {

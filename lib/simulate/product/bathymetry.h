@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <vector>
 
 #include "simulate/product/picture.h"
 

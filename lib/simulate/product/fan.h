@@ -1,15 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <mutex>
-#include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "simulate/ping/sonar.h"
 #include "simulate/product/picture.h"

@@ -1,12 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "simulate/labels/labels.h"
 #include "simulate/ping/sonar.h"

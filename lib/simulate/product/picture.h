@@ -1,9 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
-#include <string_view>
-#include <vector>
 
 #include "core/rgb.h"
 #include "input/mission/mission.h"

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "simulate/ping/sonar.h"
 #include "simulate/product/bathymetry.h"

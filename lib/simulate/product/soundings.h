@@ -1,10 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/pose.h"
 #include "simulate/ping/sonar.h"

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "input/scene/scene.h"
 #include "simulate/trace/bounce_path.h"
 #include "simulate/trace/counters.h"

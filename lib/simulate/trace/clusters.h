@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "simulate/visibility/engine.h"
 
 namespace sonarsim {

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string_view>
-#include <vector>
 
 #include "input/scene/scene.h"
 #include "simulate/trace/ping.h"

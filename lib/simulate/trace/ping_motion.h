@@ -1,8 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
 #include "core/pose.h"
 #include "simulate/visibility/engine.h"
 #include "simulate/water/water_ray.h"

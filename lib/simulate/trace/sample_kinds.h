@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <span>
-#include <vector>
 
 #include "simulate/visibility/engine.h"
 

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 #include "input/scene/objects.h"
 #include "simulate/trace/bounce_path.h"
 #include "simulate/trace/cone_beams.h"

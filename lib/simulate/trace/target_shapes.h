@@ -1,12 +1,6 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "input/scene/scene.h"
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <vector>
-
 #include "core/pose.h"
 #include "input/scene/scene.h"
 #include "simulate/trace/target_shapes.h"

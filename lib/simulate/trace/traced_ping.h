@@ -1,11 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "core/pose.h"
 #include "input/scene/scene.h"
 #include "simulate/trace/apply_maps.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/pose.h"
 #include "simulate/visibility/engine.h"
 

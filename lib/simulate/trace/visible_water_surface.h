@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "core/pose.h"
 #include "input/scene/scene.h"

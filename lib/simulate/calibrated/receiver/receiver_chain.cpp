@@ -109,7 +109,10 @@ float compressed(float value, float knee) {
     return 1.0F - (1.0F - knee) * exp_neg((value - knee) / (1.0F - knee));
 }
 
-// A tail this far below the echo in the same bin changes it by at most a grey, and is left out.
+// Fit: ghosts of bright things in half of the training fans of an ARIS 3000, by steps of 10 dB.
+constexpr float leak_power = 1e-3F;
+
+// Power this far below the echo in the same bin changes it by at most a grey, and is left out.
 constexpr float negligible = 0.003F;
 
 }  // namespace
@@ -139,9 +142,7 @@ double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& d
     return receiver.beam_gain_db * normal_pair(word).first;
 }
 
-void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image) {
-    // Fit: ghosts of bright things in half of the training fans of an ARIS 3000, by steps of 10 dB.
-    constexpr float share = 1e-3F;
+void add_mean_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image) {
     const int step = receiver.channel_beams;
     if (step == 1) return;
     for (std::size_t row = 0; row < image.size(); row += beams) {
@@ -150,7 +151,45 @@ void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image
             for (int beam = turn; beam < beams; beam += step)
                 sum += image[row + beam];
             for (int beam = turn; beam < beams; beam += step)
-                image[row + beam] += share * (sum - image[row + beam]);
+                image[row + beam] += leak_power * (sum - image[row + beam]);
+        }
+    }
+}
+
+void add_leaks(const ReceiverConfig& receiver, int beams, PhiloxKey key, std::span<float> image) {
+    const int step = receiver.channel_beams;
+    if (step == 1) return;
+    const float leak = std::sqrt(leak_power);
+    const auto half = static_cast<std::size_t>((beams + 2 * lanes - 1) / (2 * lanes) * lanes);
+    std::vector<std::uint32_t> words(2 * half);
+    std::vector<float> re(2 * half), im(2 * half);
+    for (std::size_t row = 0; row * beams < image.size(); ++row) {
+        float* const powers = image.data() + row * beams;
+        for (std::size_t k = 0; k < half; ++k) {
+            words[k] = static_cast<std::uint32_t>(k);
+            words[half + k] = static_cast<std::uint32_t>(row);
+        }
+        philox_pairs(words.data(), words.data() + half, static_cast<int>(half), key);
+        std::copy_n(powers, beams, re.begin());
+        for (std::size_t k = 0; k < 2 * half; k += lanes) {
+            const Floats8 turns = to_floats(load_words(&words[k]) >> 8) * 0x1p-24F - 0.5F;
+            const Complexes8 unit = unit_vectors_of_8(static_cast<float>(2.0 * pi) * turns);
+            const Floats8 amplitude = sqrt(max(Floats8::load(&re[k]), 0.0F));
+            (amplitude * unit.re).store(&re[k]);
+            (amplitude * unit.im).store(&im[k]);
+        }
+        for (int turn = 0; turn < std::min(step, beams); ++turn) {
+            float sum_re = 0.0F;
+            float sum_im = 0.0F;
+            for (int beam = turn; beam < beams; beam += step) {
+                sum_re += leak * re[beam];
+                sum_im += leak * im[beam];
+            }
+            for (int beam = turn; beam < beams; beam += step) {
+                const float a = std::fma(1.0F - leak, re[beam], sum_re);
+                const float b = std::fma(1.0F - leak, im[beam], sum_im);
+                powers[beam] = std::min(a * a + b * b, max_value);
+            }
         }
     }
 }
@@ -191,21 +230,16 @@ Reverberation::Reverberation(const ReceiverConfig& receiver, double bin_m, doubl
     decay = static_cast<float>(power(10.0, -6.0 * bin_s / receiver.reverberation_s));
 }
 
-void add_reverberation(const Reverberation& tail, const EchoGrid& powers, PowerForm form,
-                       float gain, PhiloxKey key, EchoGrid& grid) {
+void add_tails(const Reverberation& tail, const float* echoes, std::span<float> drawn) {
     if (!(tail.share > 0.0F)) return;
     const float share = (1.0F - tail.decay) * tail.share;
-    const int padded = (grid.rows() + lanes - 1) / lanes * lanes;
-    std::vector<float> tails(static_cast<std::size_t>(padded));
-    for (int c = 0; c < grid.columns(); ++c) {
-        const float* const echoes = powers.column(c);
-        float reverberant = 0.0F;
-        for (int row = 0; row < grid.rows(); ++row) {
-            const float echo = echoes[std::ptrdiff_t{2} * row];
-            tails[row] = reverberant > negligible * echo ? reverberant : 0.0F;
-            reverberant = std::fma(tail.decay, reverberant, share * echo);
-        }
-        add_drawn(form, tails, gain, c, key, grid);
+    float reverberant = 0.0F;
+    for (std::size_t row = 0; row < drawn.size(); ++row) {
+        const float echo = echoes[2 * row];
+        const float power = drawn[row] + reverberant;
+        reverberant = std::fma(tail.decay, reverberant, share * (echo + drawn[row]));
+        // A branch would often be predicted wrongly.
+        drawn[row] = power * static_cast<float>(power > negligible * echo);
     }
 }
 

@@ -22,9 +22,12 @@ struct ImageRows {
 /// Adds values to the bins of the first rows.
 void add_to_rows(std::span<const float> values, const ImageRows& rows, std::span<float> image);
 
-/// Adds to the powers of each beam those that leak from the beams that channels receive together
-/// with it, every `channel_beams`-th: all of these are insonified at once.
-void add_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image);
+/// Adds to the amplitude of each beam what leaks from the beams that channels receive together with
+/// it, every `channel_beams`-th: all of these are insonified at once. `image` has powers; their
+/// phases are drawn, so that noise and speckle stay Rayleigh.
+void add_leaks(const ReceiverConfig& receiver, int beams, PhiloxKey key, std::span<float> image);
+/// The same of mean powers.
+void add_mean_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image);
 
 /// Adds ringing and foreign pulses, weakens pings, and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
@@ -60,10 +63,10 @@ struct Reverberation {
     Reverberation(const ReceiverConfig& receiver, double bin_m, double sound_speed_m_s);
 };
 
-/// Adds the tails of the echoes of mean `powers` to a grid, before the pulse; `powers` may be the
-/// grid. Amplitudes are drawn for each ping, `gain` times these powers.
-void add_reverberation(const Reverberation& tail, const EchoGrid& powers, PowerForm form,
-                       float gain, PhiloxKey key, EchoGrid& grid);
+/// Adds the tails of a column's echoes to the mean powers that are drawn for each ping, which have
+/// tails, too; both by bin, before the pulse. Negligible powers become 0. `echoes`: mean powers in
+/// the first of two floats (EchoGrid::column), read only if there are tails.
+void add_tails(const Reverberation& tail, const float* echoes, std::span<float> drawn);
 
 /// The value that an instrument delivers of the n independent samples of which it makes a range
 /// bin: their largest power, or their mean power. One sample is rendered, and its rank among the

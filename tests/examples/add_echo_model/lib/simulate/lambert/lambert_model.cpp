@@ -1,7 +1,5 @@
 #include "simulate/lambert/lambert_model.h"
 
-#include <cmath>
-
 #include "simulate/trace/arrivals.h"
 
 namespace sonarsim {
