@@ -5,9 +5,7 @@ from .glb import Part
 from .noise import Draws, Relief
 from .shapes import add_grid, add_sphere, made
 
-CELL_M = 0.005
-FLOCS = 28
-FLOC_M = 0.0008
+CELL_M, FLOCS, FLOC_M = 0.005, 28, 0.0008
 
 
 def step_at(y):
@@ -17,8 +15,7 @@ def step_at(y):
 
 def material_at(x, y, ragged, draw):
     """Mud, a patch of pebbles on silt with a bare spot, sand, and rock beyond the step. Stones make echoes spiky."""
-    azimuth = math.degrees(math.atan2(y, max(x, 1e-6)))
-    distance = math.hypot(x, y)
+    azimuth, distance = math.degrees(math.atan2(y, max(x, 1e-6))), math.hypot(x, y)
     bend = (azimuth / 30) ** 2
     if distance < 0.4 + 0.4 * bend:
         return "fitted_mud"
@@ -34,10 +31,8 @@ def material_at(x, y, ragged, draw):
 
 def build():
     """The sonar is at the origin and looks along x, 35 degrees down. The bottom reaches from under it to 2.4 m ahead."""
-    swell = Relief(0.5, 0.03, 2, 7)
-    stones = Relief(0.05, 0.0055, 2, 20)
-    draw = Draws(40)
-    ragged = Relief(0.05, 0.04, 2, 31)
+    swell, stones = Relief(0.5, 0.03, 2, 7), Relief(0.05, 0.0055, 2, 20)
+    draw, ragged = Draws(40), Relief(0.05, 0.04, 2, 31)
 
     def height(x, y):
         rise = 0.025 / (1 + math.exp(-(x - step_at(y)) / 0.03))
@@ -50,11 +45,9 @@ def build():
 
 def flocs():
     """Marine snow in the main lobe between the sonar and the bottom."""
-    draw = Draws(300)
-    part = Part("flocs", "floc")
+    draw, part = Draws(300), Part("flocs", "floc")
     for _ in range(FLOCS):
-        distance = draw(0.1, 0.48)
-        azimuth = math.radians(draw(-28, 28))
+        distance, azimuth = draw(0.1, 0.48), math.radians(draw(-28, 28))
         depression = math.radians(35 + draw(-5, 5))
         centre = (distance * math.cos(azimuth) * math.cos(depression),
                   distance * math.sin(azimuth) * math.cos(depression), -distance * math.sin(depression))

@@ -47,8 +47,7 @@ def rails():
 
 def ropes():
     """Grab lines that hang in bights along the hull, and a line from bow to stern."""
-    part = Part("ropes", "steel")
-    steps = 4
+    part, steps = Part("ropes", "steel"), 4
     for side in (-1, 1):
         for k in range(10):
             points = []

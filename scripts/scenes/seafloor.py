@@ -7,8 +7,7 @@ from .shapes import add_grid, add_sphere, made
 
 def boulders(count, half_size, radius_min, radius_max, height, seed):
     """`count` deformed spheres of rock, most of them small, sunk into z = height(x, y), |x|, |y| below `half_size`."""
-    draw = Draws(seed)
-    parts = []
+    draw, parts = Draws(seed), []
     for k in range(count):
         radius = radius_min + (radius_max - radius_min) * draw(0, 1) ** 2
         x, y = (draw(-1, 1) * (half_size - 2 * radius_max) for _ in range(2))
@@ -21,13 +20,11 @@ def boulders(count, half_size, radius_min, radius_max, height, seed):
 
 def build(cells, area_m):
     """cells x cells x 2 triangles over area_m x area_m metres, and a hundred boulders (fewer on less than 1 ha)."""
-    half = area_m / 2
-    relief = Relief(40.0, 0.28, 6, 1)
+    half, relief = area_m / 2, Relief(40.0, 0.28, 6, 1)
     ripple_strength = Relief(25.0, 0.03, 2, 50)
 
     def height(x, y):
-        strength = ripple_strength(x, y)
-        bend = 0.6 * math.sin(0.11 * y)
+        strength, bend = ripple_strength(x, y), 0.6 * math.sin(0.11 * y)
         ripple = strength * math.sin(2 * math.pi * (x + bend) / 1.1) if strength > 0 else 0.0
         return relief(x, y) + ripple
 

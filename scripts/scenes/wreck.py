@@ -19,8 +19,7 @@ def half_breadth(u, v):
 
 def hull_point(u, v, side, inset=0.0):
     """The point in the world; the hull has a list to port."""
-    y = side * max(0.0, half_breadth(u, v) - inset)
-    z = DEPTH * v + 1.2 * v * max(0.0, u) ** 3
+    y, z = side * max(0.0, half_breadth(u, v) - inset), DEPTH * v + 1.2 * v * max(0.0, u) ** 3
     return (LENGTH / 2 * u, y * math.cos(LIST) - z * math.sin(LIST), y * math.sin(LIST) + z * math.cos(LIST) - SUNK)
 
 

@@ -210,8 +210,7 @@ class Sensor:
     def fan_shape(self, width):
         """(height, width, metres per pixel) of a fan that is `width` pixels wide."""
         half = 0.5 * (self.azimuth_edges_rad[-1] - self.azimuth_edges_rad[0])
-        reach = self.range_edges_m[-1]
-        wide = half > 0.5 * np.pi
+        reach, wide = self.range_edges_m[-1], half > 0.5 * np.pi
         width_m = 2 * reach * (1 if wide else np.sin(half))
         height_m = reach * (1 - np.cos(half) if wide else 1)
         pixel_m = max(width_m, 0.5 * height_m) / width

@@ -312,8 +312,7 @@ def _ahead(jobs: Iterable[Callable[[], Ping]], threads: int) -> Iterator[Ping]:
         for job in jobs:
             yield job()
         return
-    pool = concurrent.futures.ThreadPoolExecutor(threads)
-    process = os.getpid()
+    pool, process = concurrent.futures.ThreadPoolExecutor(threads), os.getpid()
     waiting: collections.deque[concurrent.futures.Future[Ping]] = collections.deque()
     try:
         while True:

@@ -58,8 +58,7 @@ def can(draw):
 def carton(draw):
     """A drinks carton with a gable or a flat top, bulged."""
     w, d, high = draw(0.06, 0.1), draw(0.055, 0.09), draw(0.12, 0.24)
-    top = draw.one_of([0.0, 0.045])
-    faces = 8
+    top, faces = draw.one_of([0.0, 0.045]), 8
 
     def bulge(x, y, z):
         gable = max(0.0, z - high) / max(top, 1e-9)
@@ -90,8 +89,7 @@ def bucket(draw):
 def crate(draw):
     """For bottles or fish: slats, a bottom and compartments."""
     x, y, z, wall = draw(0.35, 0.6), draw(0.28, 0.4), draw(0.2, 0.32), 0.008
-    solids = [box((x, y, wall))]
-    rows = draw.whole(2, 4)
+    solids, rows = [box((x, y, wall))], draw.whole(2, 4)
     for k in range(rows):
         middle, slat = z * (k + 0.5) / rows, 0.6 * z / rows
         for s in (-1, 1):

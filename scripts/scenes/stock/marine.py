@@ -158,8 +158,7 @@ def line_valve(draw):
 def pipe(draw):
     """A straight pipe with a wall and flanges, or an elbow."""
     r, long = draw(0.03, 0.15), draw(0.4, 2.5)
-    wall = 0.1 * r
-    material = draw.one_of(["steel", "pvc", "concrete", "rusty_steel"])
+    wall, material = 0.1 * r, draw.one_of(["steel", "pvc", "concrete", "rusty_steel"])
     if draw(0, 1) < 0.3:
         bend = 3 * r
         arc = [(bend * math.cos(a), bend * math.sin(a), 0) for a in (math.pi / 2 * k / 10 for k in range(11))]

@@ -18,8 +18,7 @@ class Draw(Draws):
 
 def bridged(vertices, rings, loop):
     """The solid of rings of vertex numbers, each joined to the next; a loop's last to its first."""
-    sides = len(rings[0])
-    faces = []
+    sides, faces = len(rings[0]), []
     for low, high in zip(rings, rings[1:] + rings[:1] if loop else rings[1:]):
         for k in range(sides):
             n = (k + 1) % sides

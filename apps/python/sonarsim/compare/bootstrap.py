@@ -11,9 +11,7 @@ from scipy import stats
 from .figure import joined, value_of, without_gain
 
 DRAWS, CELL_DRAWS, EXCHANGES = 300, 100, 499
-FEWEST_PLACES = 8
-MAX_DEGREES = 300.0
-SIGNIFICANCE = 0.05
+FEWEST_PLACES, MAX_DEGREES, SIGNIFICANCE = 8, 300.0, 0.05
 TOLERANCES = {"decibel": 1.0, "texture": 0.3, "correlation": 0.05, "skewness": 0.1, "hundredth": 0.01}
 
 

@@ -13,8 +13,7 @@ from .texture import block_figures, off_figures
 
 RANGE_BANDS, BEARING_BANDS = 8, 4
 MAX_TREND = {"bottom": 0.5, "image": 0.5, "water": 0.35, "tail": 0.35}
-MAX_CLIPPED = 0.03
-LAGS = (1, 2, 4)
+MAX_CLIPPED, LAGS = 0.03, (1, 2, 4)
 LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
 PERCENTILES = (5, 25, 75, 95, 99)
 REACH = (9, 25)         # a point is the largest within 4 ranges and 12 beams

@@ -7,8 +7,7 @@ from .figure import Figure
 
 BAND = np.pi / 18.0
 GROUPS = "levels over the mean", "variation of power", "spread of ranges"
-PINGS_IN_GROUP = 8
-FEWEST_IN_BAND = 6
+PINGS_IN_GROUP, FEWEST_IN_BAND = 8, 6
 
 
 def common_angles(*recordings):

@@ -6,8 +6,7 @@ from .description import Section, read_yaml
 from .files import two_sides
 from .recording import MAX_POWER, MAX_VALUES, Law, Recording, RecordingError, Soundings
 
-LARGEST_MISSION = 1 << 26
-MIN_QUALITY = 0.5
+LARGEST_MISSION, MIN_QUALITY = 1 << 26, 0.5
 KINDS = {"sidescan": "sidescan", "echosounder": "echosounder", "scanning": "scanning", "profiling": "soundings"}
 
 

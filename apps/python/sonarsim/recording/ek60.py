@@ -8,9 +8,7 @@ import numpy as np
 
 from .bytes_of_pings import FASTEST_SOUND_M_S, decibel_law, field, timed_recording
 
-DATA_AT = 84
-DB_PER_STEP = 10.0 * math.log10(2.0) / 256.0
-RANGE_DB = 200.0
+DATA_AT, DB_PER_STEP, RANGE_DB = 84, 10.0 * math.log10(2.0) / 256.0, 200.0
 
 
 def read(data, max_pings, own):

@@ -7,9 +7,7 @@ import numpy as np
 from .bytes_of_pings import field, law_of, pings_among, stacked
 from .recording import Recording
 
-MARK = b"SO"
-HEADER = 16
-PING_RESULT = 0x23
+MARK, HEADER, PING_RESULT = b"SO", 16, 0x23
 FLAGS_AT, SENDS_GAIN = 20, 4
 # The offsets of speed of sound, step of range, size of a value, ranges, beams, image, its bytes, and bearings.
 FIRST = (85, 98, 97, 106, 108, 110, 114, 122)

@@ -7,8 +7,7 @@ import numpy as np
 
 from .bytes_of_pings import field, law_of, pings_among, timed_recording
 
-MARK = b"BR"
-HEADER = 8
+MARK, HEADER = b"BR", 8
 SAMPLES_AT = {2300: 14, 2301: 20}   # in the payload, by the message's number
 PERIOD_S = 25e-9
 MAX_ODD = 0.1              # share of the pings

@@ -10,8 +10,7 @@ from .recording import Recording
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
 SIDE_SCAN = 0
 PORT, STARBOARD = 1, 2
-MAX_CHANNELS = 64
-LONGEST_RANGE_M = 1e5
+MAX_CHANNELS, LONGEST_RANGE_M = 64, 1e5
 # By the field SampleFormat, or in older files, where it is 0, by minus the number of bytes.
 SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
 
