@@ -1,5 +1,6 @@
 #include <numeric>
 
+#include "core/lanes.h"
 #include "simulate/calibrated/kind_echoes.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/sample_kinds.h"

@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "simulate/calibrated/equation/bottom.h"
 #include "simulate/calibrated/equation/instrument_levels.h"
+#include "simulate/calibrated/signal/normals.h"
 
 namespace sonarsim {
 
@@ -160,18 +161,18 @@ void add_leaks(const ReceiverConfig& receiver, int beams, PhiloxKey key, std::sp
     const int step = receiver.channel_beams;
     if (step == 1) return;
     const float leak = std::sqrt(leak_power);
-    const auto half = static_cast<std::size_t>((beams + 2 * lanes - 1) / (2 * lanes) * lanes);
+    const auto half = std::ptrdiff_t{lanes} * ((beams + 2 * lanes - 1) / (2 * lanes));
     std::vector<std::uint32_t> words(2 * half);
     std::vector<float> re(2 * half), im(2 * half);
     for (std::size_t row = 0; row * beams < image.size(); ++row) {
         float* const powers = image.data() + row * beams;
-        for (std::size_t k = 0; k < half; ++k) {
+        for (std::ptrdiff_t k = 0; k < half; ++k) {
             words[k] = static_cast<std::uint32_t>(k);
             words[half + k] = static_cast<std::uint32_t>(row);
         }
         philox_pairs(words.data(), words.data() + half, static_cast<int>(half), key);
         std::copy_n(powers, beams, re.begin());
-        for (std::size_t k = 0; k < 2 * half; k += lanes) {
+        for (std::ptrdiff_t k = 0; k < 2 * half; k += lanes) {
             const Floats8 turns = to_floats(load_words(&words[k]) >> 8) * 0x1p-24F - 0.5F;
             const Complexes8 unit = unit_vectors_of_8(static_cast<float>(2.0 * pi) * turns);
             const Floats8 amplitude = sqrt(max(Floats8::load(&re[k]), 0.0F));
