@@ -78,6 +78,7 @@ TEST_CASE("caster: scenes with the same first file share its tree and have their
         Scene scene = scene_with(x);
         if (x == 1.0F) add_sphere(scene, {9, 9, 9}, 0.1F, 0, 16);  // an own number of triangles
         const std::vector<float> by_shared = hits(shared.caster(scene));
+        CHECK(shared.caster(scene).placed_triangles() == scene.triangles.size());
         scene.first_file_triangles = 0;  // one tree of all
         CHECK(by_shared == hits(Caster(scene)));
     }

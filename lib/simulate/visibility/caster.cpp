@@ -242,6 +242,15 @@ Caster Caster::moved(std::span<const Pose> T_world_body) const {
     return out;
 }
 
+std::size_t Caster::placed_triangles() const {
+    std::size_t count = 0;
+    for (std::size_t tree = 0; tree <= trees_->bodies; ++tree)
+        count += trees_->size(tree);
+    for (const Trees::PlacedCopy& copy : trees_->copies)
+        count += trees_->size(copy.tree);
+    return count;
+}
+
 Facet Caster::placed_facet(std::uint32_t index) const {
     const PlacedTree& placed_tree =
         index < placed_trees_.back()->begin ? *placed_trees_.front() : *placed_trees_.back();

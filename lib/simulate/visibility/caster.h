@@ -62,6 +62,9 @@ class Caster {
         return index < still_ ? facets_[index] : placed_facet(index);
     }
 
+    /// The number of triangles of the scene with its bodies and all copies.
+    std::size_t placed_triangles() const;
+
   private:
     friend class SharedTrees;
     struct Trees;

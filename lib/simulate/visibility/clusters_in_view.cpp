@@ -189,9 +189,8 @@ SceneClusters::SceneClusters(const Scene& scene)
         shared_.push_back(placed(mesh, 0));
 }
 
-std::optional<ClustersInView> SceneClusters::in_view(const View& view, Pose T_world_sensor,
-                                                     std::span<const Pose> T_world_body,
-                                                     std::size_t max_triangles) const {
+ClustersInView SceneClusters::in_view(const View& view, Pose T_world_sensor,
+                                      std::span<const Pose> T_world_body) const {
     ClustersInView out{local_pose(T_world_sensor, scene_.origin), own_, {}, {}, {}, {}};
     T_world_sensor.translation -= scene_.origin;
     const ViewVolume volume(view, T_world_sensor);
@@ -199,25 +198,18 @@ std::optional<ClustersInView> SceneClusters::in_view(const View& view, Pose T_wo
     const float margin_m = margin * static_cast<float>(view.range_max_m);
     add_outward(own_, out.pose.position, margin_m, out.own_outward);
     ClusterPlacer placer(volume, own_.facets.size(), margin_m, out);
-    std::size_t own = 0;
-    const auto too_many = [&] { return own + out.placed.facets.size() > max_triangles; };
     for (std::uint32_t k = 0; k < own_.clusters.size(); ++k) {
-        if (!placer.may_be_visible(own_.clusters[k])) continue;
-        out.own_clusters.push_back(k);
-        own += own_.clusters[k].triangles;
-        if (too_many()) return {};
+        if (placer.may_be_visible(own_.clusters[k])) out.own_clusters.push_back(k);
     }
     const Eigen::Translation3d to_local(-scene_.origin);
     for (const MeshCopy& copy : scene_.copies) {
         placer.place(shared_[copy.mesh].clusters, shared_[copy.mesh].whole,
                      to_local * copy.T_world_mesh, copy.instance);
-        if (too_many()) return {};
     }
     for (std::size_t k = 0; k < T_world_body.size(); ++k) {
         placer.place(bodies_[k].clusters, bodies_[k].whole, to_local * affine(T_world_body[k]),
                      scene_.bodies[k].instance);
     }
-    if (too_many()) return {};
     return out;
 }
 

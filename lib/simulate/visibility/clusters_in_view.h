@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -92,11 +90,9 @@ class SceneClusters {
     /// `scene` must outlive it.
     explicit SceneClusters(const Scene& scene);
 
-    /// Without their poses bodies are left out. The clusters must outlive the result. Nothing, if
-    /// the clusters in view have more triangles than `max_triangles`.
-    std::optional<ClustersInView> in_view(
-        const View& view, Pose T_world_sensor, std::span<const Pose> T_world_body,
-        std::size_t max_triangles = std::numeric_limits<std::size_t>::max()) const;
+    /// Without their poses bodies are left out. The clusters must outlive the result.
+    ClustersInView in_view(const View& view, Pose T_world_sensor,
+                           std::span<const Pose> T_world_body) const;
 
   private:
     struct PlacedMesh {

@@ -10,7 +10,7 @@ inline View fan_view(double azimuth_deg = 60.0, double elevation_deg = 20.0, int
 }
 
 inline Samples visible(const SceneClusters& clusters, const View& view, const Pose& pose = {}) {
-    return strips_surface(*clusters.in_view(view, pose, {}), view);
+    return strips_surface(clusters.in_view(view, pose, {}), view);
 }
 
 inline Samples visible(const Scene& scene, const View& view, const Pose& pose = {}) {

@@ -208,7 +208,7 @@ TEST_CASE("strips: drawn solids look the same as open meshes, whichever way thei
         CHECK(std::ranges::count(solids.items, -1.0F, &Solid::outward) == 2);
         const SceneClusters clusters(scene);
         const Pose pose{rotation_from_rpy(0.0, 0.2, 0.1), {0.1, 0.05, 0.2}};
-        ClustersInView in_view = *clusters.in_view(view, pose, {});
+        ClustersInView in_view = clusters.in_view(view, pose, {});
         const Samples near_sides = strips_surface(in_view, view);
         std::ranges::fill(in_view.own_outward, 0.0F);
         const Samples both_sides = strips_surface(in_view, view);
