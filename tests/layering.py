@@ -14,8 +14,7 @@ import sys
 DOORS = {
     "core": ("core",), "input": ("mission", "scene", "trajectory"),
     "simulate": ("water", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product", "sonar", "assembly",
-                 "reference"),
-    "output": ("format", "dataset"), "run": ("checks", "job", "report", "preview")}
+                 "reference"), "output": ("format", "dataset"), "run": ("checks", "job", "report", "preview")}
 DOOR_OF = {folder: door for door, folders in DOORS.items() for folder in folders}
 # The folders of lib/ with the folders that each includes.
 ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
@@ -30,8 +29,7 @@ ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
     "checks": "core mission scene visibility trace sonar assembly reference dataset",
     "job": "core mission trajectory visibility sonar assembly dataset checks",
     "report": "core mission scene visibility sonar assembly reference dataset checks job",
-    "preview": "core mission scene visibility product sonar assembly",
-}.items()}
+    "preview": "core mission scene visibility product sonar assembly"}.items()}
 assert ALLOWED.keys() == DOOR_OF.keys()
 assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder])
            for folder, lowers in ALLOWED.items() for lower in lowers), "an arrow from a door to a higher one"

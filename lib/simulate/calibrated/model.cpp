@@ -223,9 +223,15 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         .beams = context.view.beams,
         .noise = analog_noise_values};
     const bool is_received = context.terms.random > 1;
-    if (is_received)
-        add_leaks(receiver, rows.beams, context.draws.received(stream_named("leaks")),
+    if (is_received && is_drawn) {
+        constexpr Stream leaks = stream_named("leaks");
+        add_leaks(receiver, rows.beams,
+                  speckle == SpeckleMode::scene ? context.draws.scene_key(leaks)
+                                                : context.draws.received(leaks),
                   ping.intensity);
+    } else if (is_received) {
+        add_mean_leaks(receiver, rows.beams, ping.intensity);
+    }
     if (!mean.empty()) {
         // The mean is that of the draws, for the same places of the scatterers.
         if (is_received) add_to_rows(std::span(noise_values).first(rows.rows), rows, mean);

@@ -217,7 +217,7 @@ std::vector<std::uint8_t> covered_bins(const SceneClusters& surface, const View&
                                        std::span<const Pose> T_world_body) {
     Coverage coverage(view);
     surface.in_view(view, T_world_sensor, T_world_body)
-        ->visit_triangles([&](const Corners& corners) { coverage.add(corners); });
+        .visit_triangles([&](const Corners& corners) { coverage.add(corners); });
     return coverage.take();
 }
 

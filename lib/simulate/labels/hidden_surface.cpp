@@ -156,7 +156,8 @@ LineParts parts_by_surfaces(SightLine line, std::span<const Intersection> surfac
             tracer.is_by_object(line) ? parts_of(line, met, width) : LineParts{};
         all = {std::max(all.u, these.u), std::max(all.v, these.v)};
         if (met) tracer.pass(line, *met);
-        if (!tracer.is_wanted(line)) break;
+        // The facts of objects are the same if the shadows of background are wanted, too.
+        if (line.behind_background || !tracer.is_wanted(line)) break;
     }
     return all;
 }

@@ -16,8 +16,8 @@ constexpr float max_parts_by_bins = 128.0F;
 // The surface behind a part is so many bins deep.
 constexpr float bins_of_part = 4.0F;
 
-// The mean distance of the lines of shares: this share of an object's size, so that some 400 meet
-// it, but at least 2.5 cm at 5 m, and in thin views less. Chosen.
+// The mean distance of the lines of shares: this share of an object's size, so that in fans some
+// 400 meet it, but at least 2.5 cm at 5 m, and in thin views less. Chosen.
 constexpr double share_of_size = 0.05;
 constexpr double share_rad = 0.005;
 constexpr double share_by_view = 0.25;

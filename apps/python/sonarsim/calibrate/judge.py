@@ -33,7 +33,7 @@ class Figure(typing.NamedTuple):
     @property
     def is_known(self):
         """True if the pings determine the figure within its tolerance."""
-        return np.isfinite(self.measured.value) and (self.tolerance == "dB" or self.measured.half_width <= self.most)
+        return self.tolerance == "dB" or self.measured.half_width <= self.most
 
     @property
     def agrees(self):
@@ -90,7 +90,8 @@ def figures_of(recording, instrument, level_db, start, fit):
                            float(speckle_part[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":
             out += noise_levels(recording, law, noise)
-    return [figure for figure in out if figure.is_known]
+    out = [figure for figure in out if np.isfinite(figure.measured.value)]
+    return [figure for figure in out if figure.is_known] or out
 
 
 def noise_levels(recording, law, noise):

@@ -145,9 +145,9 @@ double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& d
 
 void add_mean_leaks(const ReceiverConfig& receiver, int beams, std::span<float> image) {
     const int step = receiver.channel_beams;
-    if (step == 1) return;
+    if (step == 1 || step >= beams) return;
     for (std::size_t row = 0; row < image.size(); row += beams) {
-        for (int turn = 0; turn < std::min(step, beams); ++turn) {
+        for (int turn = 0; turn < step; ++turn) {
             float sum = 0.0F;
             for (int beam = turn; beam < beams; beam += step)
                 sum += image[row + beam];
@@ -159,7 +159,7 @@ void add_mean_leaks(const ReceiverConfig& receiver, int beams, std::span<float> 
 
 void add_leaks(const ReceiverConfig& receiver, int beams, PhiloxKey key, std::span<float> image) {
     const int step = receiver.channel_beams;
-    if (step == 1) return;
+    if (step == 1 || step >= beams) return;
     const float leak = std::sqrt(leak_power);
     const auto half = std::ptrdiff_t{lanes} * ((beams + 2 * lanes - 1) / (2 * lanes));
     std::vector<std::uint32_t> words(2 * half);
@@ -179,7 +179,7 @@ void add_leaks(const ReceiverConfig& receiver, int beams, PhiloxKey key, std::sp
             (amplitude * unit.re).store(&re[k]);
             (amplitude * unit.im).store(&im[k]);
         }
-        for (int turn = 0; turn < std::min(step, beams); ++turn) {
+        for (int turn = 0; turn < step; ++turn) {
             float sum_re = 0.0F;
             float sum_im = 0.0F;
             for (int beam = turn; beam < beams; beam += step) {
