@@ -89,6 +89,15 @@ TEST_CASE("png: counts that would make codes of more than 15 bits") {
     CHECK(pixels_of<std::uint8_t>(folder.path / "a.png", width, 1, 1) == bytes);
 }
 
+TEST_CASE("png: what repeats takes a fraction of its size") {
+    const std::vector<std::uint8_t> black(1000 * 1000);
+    CHECK(png_bytes(black, 1000, 1000).size() < 20'000);
+    std::vector<std::uint16_t> ids(512 * 256);
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        ids[k] = static_cast<std::uint16_t>(k / 256 / 100 * 771);
+    CHECK(png_bytes(ids, 256, 512, PngFilter::up).size() < 5000);
+}
+
 TEST_CASE("png: the bytes are those of the packer that png_encoder names") {
     std::mt19937 random(5);
     std::string all;

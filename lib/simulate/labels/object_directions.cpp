@@ -33,7 +33,7 @@ ObjectDirections::ObjectDirections(std::span<const ObjectSphere> spheres,
         const double apart = is_inside ? 2.0 : std::sqrt(2.0 - 2.0 * std::sqrt(1.0 - sine * sine));
         const Eigen::Vector3d towards =
             is_inside ? Eigen::Vector3d::Zero() : Eigen::Vector3d(centre / distance_m);
-        constexpr double rounding = 1e-6;  // of floats, too
+        constexpr double rounding = 1e-6;  // also that of floats
         const auto cell_at = [](double at) { return cell_of(static_cast<float>(at)); };
         const std::size_t first_y = cell_at(towards.y() - apart - rounding);
         const std::size_t last_y = cell_at(towards.y() + apart + rounding);

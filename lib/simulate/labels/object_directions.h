@@ -12,7 +12,7 @@ namespace sonarsim {
 struct ObjectSphere {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     double radius_m = 0.0;
-    double area_m2 = 0.0;  ///< of the object's surface; 0: not known
+    double area_m2 = 0.0;  ///< the object's surface; 0: not known
 };
 
 /// The directions in which some of these objects may lie, on a grid of cells over the y and z of

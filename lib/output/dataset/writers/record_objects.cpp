@@ -205,8 +205,8 @@ class Strip {
     std::vector<double> range_m_;         ///< range of each value of a ping
     std::vector<Eigen::Vector3d> bows_;   ///< the vehicle's, by ping, world
     std::vector<SeenObject> passes_{{}};  ///< indexed by number
-    Ids pass_of_pixel_;                   ///< of the objects
-    Ids shadow_of_pixel_;                 ///< of the shadows that masks include
+    Ids pass_of_pixel_;                   ///< objects
+    Ids shadow_of_pixel_;                 ///< shadows that masks include
 };
 
 /// The facts of an object in the display of a sweep.
