@@ -1,6 +1,7 @@
 #include "output/dataset/labelled_ping.h"
 
 #include "input/scene/copies.h"
+#include "input/scene/mesh_topology.h"
 #include "simulate/labels/silhouette.h"
 #include "simulate/sonar/kinds.h"
 
@@ -14,49 +15,41 @@ ObjectSphere sphere_around(const Eigen::AlignedBox3d& box, double area_m2) {
     return {box.center(), 0.5 * box.diagonal().norm(), area_m2};
 }
 
-/// The area of each object's surface that is at rest, without that of copies.
-std::vector<double> still_areas(const Assembly& assembly) {
-    const Scene& scene = assembly.scene;
-    std::vector<double> areas(assembly.objects.objects.size());
-    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
-        const auto& [a, b, c] = scene.triangles[k];
-        const Eigen::Vector3f side = scene.vertices[b] - scene.vertices[a];
-        areas[assembly.objects.object_of(scene.triangle_instance[k])] +=
-            0.5 * side.cross(scene.vertices[c] - scene.vertices[a]).norm();
-    }
-    return areas;
-}
+/// The surface of an object at rest, world; its area without that of copies.
+struct StillSurface {
+    Eigen::AlignedBox3d box;
+    double area_m2 = 0.0;
+};
 
-/// The box around the surface at rest of each object, world.
-std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly) {
+std::vector<StillSurface> still_surfaces(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     const SceneObjects& objects = assembly.objects;
-    std::vector<Eigen::AlignedBox3d> boxes(objects.objects.size());
+    std::vector<StillSurface> surfaces(objects.objects.size());
     for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
-        Eigen::AlignedBox3d& box = boxes[objects.object_of(scene.triangle_instance[k])];
+        StillSurface& surface = surfaces[objects.object_of(scene.triangle_instance[k])];
         for (const std::uint32_t vertex : scene.triangles[k])
-            box.extend(scene.origin + scene.vertices[vertex].cast<double>());
+            surface.box.extend(scene.origin + scene.vertices[vertex].cast<double>());
+        surface.area_m2 += 0.5 * cross_of(scene.vertices, scene.triangles[k]).norm();
     }
     for (const MeshCopy& copy : scene.copies) {
-        Eigen::AlignedBox3d& box = boxes[objects.object_of(copy.instance)];
+        Eigen::AlignedBox3d& box = surfaces[objects.object_of(copy.instance)].box;
         for (const Eigen::Vector3f& vertex : scene.shared_meshes[copy.mesh].vertices)
             box.extend(copy.T_world_mesh * vertex.cast<double>());
     }
-    return boxes;
+    return surfaces;
 }
 
 AnnotatedObjects annotated_objects(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     const SceneObjects& objects = assembly.objects;
-    const std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
-    const std::vector<double> areas = still_areas(assembly);
+    const std::vector<StillSurface> surfaces = still_surfaces(assembly);
     AnnotatedObjects annotated;
-    for (const Eigen::AlignedBox3d& box : boxes)
-        annotated.surface.extend(box);
+    for (const StillSurface& surface : surfaces)
+        annotated.surface.extend(surface.box);
     if (!scene.bodies.empty()) annotated.surface.setEmpty();
-    for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-        if (!objects.is_background(k) && !boxes[k].isEmpty())
-            annotated.still.push_back(sphere_around(boxes[k], areas[k]));
+    for (std::uint32_t k = 0; k < surfaces.size(); ++k) {
+        if (!objects.is_background(k) && !surfaces[k].box.isEmpty())
+            annotated.still.push_back(sphere_around(surfaces[k].box, surfaces[k].area_m2));
     }
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         if (objects.is_background(objects.object_of(scene.bodies[k].instance))) continue;
@@ -86,20 +79,6 @@ Ids without_background(Ids ids, const SceneObjects& objects) {
     return ids;
 }
 
-/// Weakens echoes as the receiver does towards the edges of a fan.
-void weaken(std::span<const float> beam_gain, PingLabels& bins) {
-    if (beam_gain.empty()) return;
-    for (std::vector<float>* const echoes :
-         {&bins.visible_echo, &bins.own_echo, &bins.whole_echo}) {
-        auto echo = echoes->begin();
-        for (std::size_t j = 0; j < beam_gain.size() && echo != echoes->end(); ++j) {
-            const auto end = echo + bins.range_bins;
-            std::transform(echo, end, echo, [&](float power) { return power * beam_gain[j]; });
-            echo = end;
-        }
-    }
-}
-
 /// The outlines of a ping; in a record, which is drawn in its picture, the bodies.
 Ids find_outlines(const LabelPlan& plan, const PingSettings& settings, const PingLabels& labels) {
     const EchoModelInfo& info = settings.model->info;
@@ -122,7 +101,9 @@ Ids find_outlines(const LabelPlan& plan, const PingSettings& settings, const Pin
 }  // namespace
 
 std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
-    std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const StillSurface& surface : still_surfaces(assembly))
+        boxes.push_back(surface.box);
     for (const Body& body : assembly.scene.bodies)
         boxes[assembly.objects.object_of(body.instance)].setEmpty();
     return boxes;
@@ -192,7 +173,6 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    weaken(sonar.settings.model->info.beam_gain, out.bins);
     if (request.outlines) out.bins.silhouette = find_outlines(plan, sonar.settings, out.bins);
     if (!plan.objects) return out;
     Ids mask = without_background(out.bins.facts(), assembly.objects);

@@ -56,7 +56,12 @@ class ImageFormer {
 
         count_occupied(grid);
 
-        // 3. The water and the tails of echoes. 4. Pulse and beams. 5. The receiver's noise.
+        // 3. The water and the tails of echoes; cells of amplitudes share scatterers with their
+        // neighbours, so the tails are of mean powers.
+        add_reverberation(model_, traced_, context_, mean_ ? *mean_ : grid, form_, speckle_gain_,
+                          grid, is_mean_shown_ ? mean_.get() : nullptr);
+
+        // 4. Pulse and beams. 5. The receiver's noise and its gain.
         receive(form_, context_.terms.random > 1, grid, ping_.intensity);
         if (!mean_image.empty()) receive(PowerForm::power, false, *mean_, mean_image);
     }
@@ -64,9 +69,6 @@ class ImageFormer {
   private:
     void receive(PowerForm form, bool noisy, EchoGrid& grid, std::span<float> image) const {
         const bool powers = form == PowerForm::power;
-        // Cells of amplitudes share scatterers with their neighbours, so the tails are of powers.
-        add_reverberation(model_, traced_, context_, powers || !mean_ ? grid : *mean_, form,
-                          speckle_gain_, grid);
         grid.convolve_pulse(powers ? model_.power_taps : model_.amplitude_taps, column_gains_,
                             powers);
         beams_.form(grid, powers, noisy, context_.draws.received(Stream::receiver_noise),

@@ -72,9 +72,10 @@ void form_look(const CalibratedModel& model, const TracedPing& traced, const For
                std::span<float> mean, Ping& ping);
 
 /// Adds reverberation to a grid: the echoes of the water's volume, and the tails of all echoes,
-/// whose mean powers are `powers`; these may be the grid. `gain`: as in draw_speckle().
+/// whose mean powers are `powers`; these may be the grid. `gain`: as in draw_speckle(). `mean`:
+/// receives their powers; null: none.
 void add_reverberation(const CalibratedModel& model, const TracedPing& traced,
                        const FormContext& context, const EchoGrid& powers, PowerForm form,
-                       float gain, EchoGrid& grid);
+                       float gain, EchoGrid& grid, EchoGrid* mean);
 
 }  // namespace sonarsim

@@ -173,7 +173,7 @@ class ReceivedWater {
 
 void add_reverberation(const CalibratedModel& model, const TracedPing& traced,
                        const FormContext& context, const EchoGrid& powers, PowerForm form,
-                       float gain, EchoGrid& grid) {
+                       float gain, EchoGrid& grid, EchoGrid* mean) {
     const Terms& terms = context.terms;
     std::optional<ReceivedWater> water;
     if (terms.direct && terms.water && model.water) water.emplace(model, traced, context.scene);
@@ -188,6 +188,7 @@ void add_reverberation(const CalibratedModel& model, const TracedPing& traced,
             drawn.assign((rows + lanes - 1) / lanes * lanes, 0.0F);
         add_tails(model.reverberation, powers.column(c), std::span(drawn).first(rows));
         add_drawn(form, drawn, gain, c, key, grid);
+        if (mean) add_drawn(PowerForm::power, drawn, gain, c, key, *mean);
     }
 }
 

@@ -175,6 +175,20 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
     if (request.shares) find_shares(surfaces, out);
 }
 
+/// Weakens echoes as the receiver does towards the edges of a fan.
+void weaken(std::span<const float> beam_gain, PingLabels& labels) {
+    if (beam_gain.empty()) return;
+    for (std::vector<float>* const echoes :
+         {&labels.visible_echo, &labels.own_echo, &labels.whole_echo}) {
+        auto echo = echoes->begin();
+        for (std::size_t j = 0; j < beam_gain.size() && echo != echoes->end(); ++j) {
+            const auto end = echo + labels.range_bins;
+            std::transform(echo, end, echo, [&](float power) { return power * beam_gain[j]; });
+            echo = end;
+        }
+    }
+}
+
 /// Finds the shadows of all objects and those of objects that are no background, as far as a
 /// request needs them, from one trace of the hidden surface. `sums`: the echoes of the ping.
 void label_shadows(const TracedPing& traced, const SurfaceEchoes& echoes, const View& view,
@@ -241,6 +255,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                                         .objects = request.only_objects ? &objects : nullptr},
                                        [&](const EchoBlock& block) { surfaces.add(block); });
     label_surfaces(surfaces, objects, scene.materials, request, labels);
+    weaken(settings.model->info.beam_gain, labels);
     label_shadows(traced, echoes, view, scene, objects, engine, request, surfaces, labels);
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,

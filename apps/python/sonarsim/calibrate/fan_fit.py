@@ -51,7 +51,7 @@ class Fans(Sensor):
                                    f"{high:g} m: give their opening and ranges")
         self.index = self.from_fan(np.arange(height * width).reshape(height, width))
         varies = np.ptp(self.polar(self.pixels), axis=0).any(axis=0)
-        edge = 1 + len(varies) // 50
+        edge = 1 + len(varies) // 50    # 2 %, chosen
         if not (varies[:edge].any() and varies[-edge:].any()):
             raise CalibrationError(f"{name}: the outermost bearings are the same in all fans: cut off margins, or give the opening")
 

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import special
 
 DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
-WIDEST, WIDEST_TVG = 0.3, 10.0  # interval of a number over its value, and of tvg_log, that a preset may have
+WIDEST, WIDEST_TVG = 0.3, 10.0  # intervals that a preset may have: over the value; of tvg_log, dB a decade. Chosen
 LAGS = 8                        # the greatest lag of correlations, in bins and beams
 TERMS = 400                     # of the correlation of ln P
 

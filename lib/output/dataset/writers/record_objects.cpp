@@ -58,7 +58,7 @@ class Strip {
             pass.clipped = pass.clipped || mask.left == 0 || mask.top == 0 ||
                            mask.right == static_cast<int>(across) ||
                            mask.bottom == static_cast<int>(down);
-            objects.push_back(source_.json(passes_[mask.id], mask));
+            objects.push_back(source_.json(pass, mask));
         }
         const Json head{{"picture", std::string(shape_.name) + ".png"},
                         {"width", across},
